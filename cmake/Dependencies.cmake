@@ -1,0 +1,12 @@
+# Every library is a distribution package; the ones without usable CMake files are wrapped here.
+find_package(Threads REQUIRED)
+find_package(fmt 9 CONFIG REQUIRED)
+find_package(TBB CONFIG REQUIRED)
+find_package(embree 3 CONFIG REQUIRED)
+find_package(TinyGLTF CONFIG REQUIRED)
+find_package(tomlplusplus CONFIG REQUIRED)
+find_package(nlohmann_json 3.11 CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(PNG REQUIRED)
+find_package(Boost 1.74 REQUIRED)
+include(SystemC)

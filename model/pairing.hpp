@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/mesh.hpp"
+#include "model/pair.hpp"
+
+namespace rtu::model {
+
+enum class PairingKind : std::uint8_t { None, Window, EdgeBbsa };
+
+/// A pairing method as written on the command line: `none`, `window:N` (N in [2, 65536]) or `edge_bbsa`.
+struct PairingMethod {
+    PairingKind kind = PairingKind::EdgeBbsa;
+    std::uint32_t window = 0;  ///< N of window:N, else 0
+};
+
+/// When two triangles' corners are the same vertex: equal index in the file, or bit-equal position.
+enum class EdgeIdentity : std::uint8_t { Index, Position };
+
+/// Throws Error for anything that is not a method's name.
+[[nodiscard]] PairingMethod parse_pairing_method(std::string_view text);
+[[nodiscard]] std::string to_string(PairingMethod method);
+/// Throws Error for anything but `position` or `index`.
+[[nodiscard]] EdgeIdentity parse_edge_identity(std::string_view text);
+[[nodiscard]] std::string_view to_string(EdgeIdentity identity);
+
+/// A partition of a mesh's triangles into pairs and lone triangles.
+struct Pairing {
+    std::vector<TrianglePair> pairs;  ///< every triangle exactly once, ordered by their first primitive id
+    std::uint64_t pair_count = 0;     ///< entries with two triangles
+    std::uint64_t single_count = 0;   ///< entries with one
+
+    /// Share of the triangles that are in a pair, in percent; 0 for an empty mesh.
+    [[nodiscard]] double paired_percent() const {
+        const double total = 2.0 * double(pair_count) + double(single_count);
+        return total > 0 ? 200.0 * double(pair_count) / total : 0.0;
+    }
+};
+
+/// Pairs the triangles of `mesh`. Deterministic. Pairs store file vertex indices whatever the identity; where the
+/// identity is by position, the two triangles' common corners may differ in index but not in position.
+/// Sources: window:N and edge_bbsa are [AF] (docs/model.md).
+[[nodiscard]] Pairing pair_triangles(const TriangleMesh& mesh, PairingMethod method, EdgeIdentity identity);
+
+}  // namespace rtu::model

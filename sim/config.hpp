@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+
+namespace rtu::sim {
+
+/// How the dual-triangle unit works through a pair.
+enum class PairMode : std::uint8_t {
+    Single,           ///< one triangle an issue: a pair takes two
+    DualIndependent,  ///< two complete testers: a pair is one issue
+    DualShared,       ///< common-edge arithmetic and one depth unit shared: a folded pair that is pierced twice replays
+};
+
+/// Every hardware number of the machine. Meaning, unit, range, default and the default's source of each field are in
+/// one table (config_keys()); names below equal its keys.
+struct Config {
+    std::uint32_t clock_mhz = 1000;
+    std::uint32_t watchdog_cycles = 1'000'000;
+
+    struct Host {
+        std::uint32_t rays_per_cycle = 1;
+    } host;
+
+    struct Bvh {
+        std::uint32_t width = 4;
+        std::uint32_t max_leaf_pairs = 1;
+    } bvh;
+
+    struct Rtu {
+        std::uint32_t count = 1;
+        std::uint32_t ray_slots = 128;
+        std::uint32_t stack_entries = 16;
+        std::uint32_t results_per_cycle = 2;  ///< unit results that the scheduler takes a cycle
+        std::uint32_t fetches_per_cycle = 2;  ///< requests that it sends to the L1 a cycle
+
+        struct Box {
+            std::uint32_t boxes_per_cycle = 4;
+            std::uint32_t latency_cycles = 12;
+        } box;
+
+        struct Pair {
+            PairMode mode = PairMode::DualShared;
+            std::uint32_t testers = 1;
+            std::uint32_t ii_cycles = 1;
+            std::uint32_t latency_cycles = 22;
+            std::uint32_t replay_cycles = 1;
+        } pair;
+    } rtu;
+
+    struct Cache {
+        std::uint32_t size_bytes = 0;
+        std::uint32_t line_bytes = 128;
+        std::uint32_t sector_bytes = 32;
+        std::uint32_t ways = 0;
+        std::uint32_t banks = 0;  ///< one line access a bank and cycle
+        std::uint32_t mshrs = 0;
+        std::uint32_t targets_per_mshr = 0;
+        std::uint32_t latency_cycles = 0;  ///< request seen to reply sent, for a hit
+    };
+    Cache l1{64 * 1024, 128, 32, 16, 4, 64, 16, 20};
+    Cache l2{4 * 1024 * 1024, 128, 32, 16, 4, 128, 16, 100};
+
+    struct Dram {
+        std::uint32_t channels = 4;
+        std::uint32_t banks = 16;           ///< a channel
+        std::uint32_t row_bytes = 2048;     ///< a bank
+        std::uint32_t queue_entries = 32;   ///< a channel
+        std::uint32_t bytes_per_cycle = 16; ///< a channel, in core cycles
+        std::uint32_t t_rcd_cycles = 14;
+        std::uint32_t t_rp_cycles = 14;
+        std::uint32_t t_cas_cycles = 14;
+        std::uint32_t latency_cycles = 60;  ///< controller and link, both ways together
+    } dram;
+};
+
+}  // namespace rtu::sim
