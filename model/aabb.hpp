@@ -18,8 +18,9 @@ struct Aabb {
         hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
     }
     constexpr void extend(const Aabb& box) {
-        extend(box.lo);
-        extend(box.hi);
+        // Each corner against its own: an empty box must add nothing.
+        lo = {std::min(lo.x, box.lo.x), std::min(lo.y, box.lo.y), std::min(lo.z, box.lo.z)};
+        hi = {std::max(hi.x, box.hi.x), std::max(hi.y, box.hi.y), std::max(hi.z, box.hi.z)};
     }
     [[nodiscard]] constexpr bool contains(Vec3 p) const {
         return lo.x <= p.x && p.x <= hi.x && lo.y <= p.y && p.y <= hi.y && lo.z <= p.z && p.z <= hi.z;

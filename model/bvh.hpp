@@ -14,14 +14,16 @@ struct BvhOptions {
     std::uint32_t max_leaf_pairs = 1;  ///< pairs a leaf, 1..8
 };
 
-/// Builds a BVH over the pairs' boxes with Embree's binned SAH builder and lays it out as memory_image.hpp says.
-/// The pairing is consumed, so that its memory is free before the image is made. Byte-identical on every machine:
-/// the builder runs on one thread. Throws Error for no pairs or an image beyond the 16 GiB that a NodeRef can address.
+/// Builds a BVH over the pairs' boxes with Embree's binned SAH builder and lays it out as memory_image.hpp
+/// says. The pairing is consumed, so that its memory is free before the image is made. Byte-identical on
+/// every machine: the builder runs on one thread. Throws Error for no pairs or an image beyond the 16 GiB
+/// that a NodeRef can address.
 [[nodiscard]] MemoryImage build_bvh(const TriangleMesh& mesh, Pairing pairing, BvhOptions options);
 
-/// Checks the image against the mesh: every child box lies in its parent's box (bit-exact, no slack), every leaf's
-/// box holds its pairs' vertices, every triangle is in exactly one leaf with its file corners in its file order,
-/// every reference points into the image. Throws std::logic_error naming the first address that is wrong.
+/// Checks the image against the mesh: every child box lies in its parent's box (bit-exact, no slack), every
+/// leaf's box holds its pairs' vertices, every triangle is in exactly one leaf with its file corners in its
+/// file order, every reference points into the image. Throws std::logic_error naming the first address that
+/// is wrong.
 void validate(const MemoryImage& image, const TriangleMesh& mesh);
 
 }  // namespace rtu::model

@@ -1,0 +1,119 @@
+#include <vector>
+
+#include "model/bvh.hpp"
+#include "model/error.hpp"
+
+namespace rtu::model {
+
+namespace {
+
+// The file corners of a stored triangle, by position.
+std::array<Vec3, 3> file_corners(const LeafPair& pair, std::uint32_t triangle) {
+    const auto& v = pair.vertices;
+    const std::array<Vec3, 3> stored =
+        triangle == 0 ? std::array{v[0], v[1], v[2]} : std::array{v[0], v[2], v[3]};
+    const CornerOrder order = pair.corner_order(triangle);
+    std::array<Vec3, 3> corners;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        corners[k] = stored[(order.rotation + (order.is_reversed ? 3 - k : k)) % 3];
+    }
+    return corners;
+}
+
+template <std::uint32_t Width>
+class Validator {
+  public:
+    Validator(const MemoryImage& image, const TriangleMesh& mesh)
+        : image_(image), mesh_(mesh), is_seen_(mesh.triangles.size(), false) {}
+
+    void run() {
+        check_node(image_.root(), image_.bounds);
+        for (std::size_t i = 0; i < is_seen_.size(); ++i) {
+            RTU_CHECK(is_seen_[i], "triangle {} is in no leaf", i);
+        }
+        RTU_CHECK(nodes_ == image_.node_count && pairs_ == image_.pair_count,
+                  "the image holds {} nodes and {} pairs, the tree reaches {} and {}", image_.node_count,
+                  image_.pair_count, nodes_, pairs_);
+    }
+
+  private:
+    void check_address(NodeRef ref, std::uint64_t bytes) const {
+        RTU_CHECK(ref.address() + bytes <= image_.size_bytes(),
+                  "reference to address {} of an image of {} bytes", ref.address(), image_.size_bytes());
+    }
+
+    void check_node(NodeRef ref, const Aabb& parent_box) {
+        check_address(ref, sizeof(Node<Width>));
+        ++nodes_;
+        RTU_CHECK(nodes_ <= image_.node_count, "node at address {} is reached twice", ref.address());
+        const auto& node = image_.template node<Width>(ref);
+        RTU_CHECK(node.child_count >= 1 && node.child_count <= Width, "node at address {} has {} children",
+                  ref.address(), node.child_count);
+        Aabb whole;
+        for (std::uint32_t i = 0; i < node.child_count; ++i) {
+            const Aabb box{{node.lo[0][i], node.lo[1][i], node.lo[2][i]},
+                           {node.hi[0][i], node.hi[1][i], node.hi[2][i]}};
+            if (node.child[i].is_leaf()) {
+                check_leaf(node.child[i], box);
+            } else {
+                check_node(node.child[i], box);
+            }
+            whole.extend(box);
+        }
+        // Tight as well as enclosing: a loose box would be correct and slow, and nobody would notice.
+        RTU_CHECK(whole == parent_box, "node at address {}: its children's boxes do not make its own",
+                  ref.address());
+    }
+
+    void check_leaf(NodeRef ref, const Aabb& box) {
+        check_address(ref, ref.pair_count() * image_block_bytes);
+        Aabb whole;
+        for (std::uint32_t i = 0; i < ref.pair_count(); ++i) {
+            const LeafPair& pair = image_.leaf_pair(ref, i);
+            ++pairs_;
+            for (std::uint32_t triangle = 0; triangle < (pair.has_second() ? 2U : 1U); ++triangle) {
+                check_triangle(ref, pair, triangle);
+            }
+            for (const Vec3& v : pair.vertices) whole.extend(v);
+        }
+        RTU_CHECK(whole == box, "leaf at address {}: its box is not that of its vertices", ref.address());
+    }
+
+    void check_triangle(NodeRef ref, const LeafPair& pair, std::uint32_t triangle) {
+        const std::uint32_t id = pair.primitive_ids[triangle];
+        RTU_CHECK(id < mesh_.triangles.size(), "leaf at address {}: triangle {} of {}", ref.address(), id,
+                  mesh_.triangles.size());
+        RTU_CHECK(!is_seen_[id], "leaf at address {}: triangle {} is in two leaves", ref.address(), id);
+        is_seen_[id] = true;
+        const auto corners = file_corners(pair, triangle);
+        for (std::size_t k = 0; k < 3; ++k) {
+            RTU_CHECK(corners[k] == mesh_.positions[mesh_.triangles[id][k]],
+                      "leaf at address {}: corner {} of triangle {} is not the file's", ref.address(), k, id);
+        }
+    }
+
+    const MemoryImage& image_;
+    const TriangleMesh& mesh_;
+    std::vector<bool> is_seen_;
+    std::uint64_t nodes_ = 0, pairs_ = 0;
+};
+
+}  // namespace
+
+void validate(const MemoryImage& image, const TriangleMesh& mesh) {
+    switch (image.width) {
+        case 2:
+            Validator<2>(image, mesh).run();
+            break;
+        case 4:
+            Validator<4>(image, mesh).run();
+            break;
+        case 6:
+            Validator<6>(image, mesh).run();
+            break;
+        default:
+            Validator<8>(image, mesh).run();
+    }
+}
+
+}  // namespace rtu::model

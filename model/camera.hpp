@@ -25,17 +25,19 @@ struct Resolution {
     std::uint32_t height = 256;
 };
 
-/// The camera of table [scene_name] in a TOML file (keys eye, target, up, tan_half_fov), or nothing when the file has
-/// no such table. A file with those keys at its top level serves every scene. Throws Error with file and line for
-/// a file that cannot be read, an unknown or missing key, or a camera that sees nothing (eye = target, up parallel
-/// to the view, tan_half_fov outside (0, 100]).
-[[nodiscard]] std::optional<Camera> load_camera(const std::filesystem::path& file, std::string_view scene_name);
+/// The camera of table [scene_name] in a TOML file (keys eye, target, up, tan_half_fov), or nothing when the
+/// file has no such table. A file with those keys at its top level serves every scene. Throws Error with file
+/// and line for a file that cannot be read, an unknown or missing key, or a camera that sees nothing (eye =
+/// target, up parallel to the view, tan_half_fov outside (0, 100]).
+[[nodiscard]] std::optional<Camera> load_camera(const std::filesystem::path& file,
+                                                std::string_view scene_name);
 
-/// A camera that shows the scene without being told how: outside looking at the whole of an object, or inside when
-/// the scene is a room (judged by casting rays from the middle of its box). Deterministic.
+/// A camera that shows the scene without being told how: outside looking at the whole of an object, or inside
+/// when the scene is a room (judged by casting rays from the middle of its box). Deterministic.
 [[nodiscard]] Camera automatic_camera(const TriangleMesh& mesh, const MemoryImage& image);
 
-/// The ray through the centre of pixel (x, y); x runs right, y runs down. t in (0, infinity), direction of length 1.
+/// The ray through the centre of pixel (x, y); x runs right, y runs down. t in (0, infinity), direction of
+/// length 1.
 [[nodiscard]] Ray camera_ray(const Camera& camera, Resolution resolution, std::uint32_t x, std::uint32_t y);
 
 }  // namespace rtu::model

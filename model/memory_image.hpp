@@ -15,10 +15,11 @@
 //           bits 30-28 leaf: number of pairs - 1; inner node: 0
 //           bits 27-0  address / 64
 // Pair of a leaf (64 bytes):
-//   float  v0[3], v1[3], v2[3], v3[3]       triangle 0 = (v0, v1, v2), triangle 1 = (v0, v2, v3); lone: v3 = v2
-//   uint32 primitive_ids[2]                 lone: the same twice
-//   uint32 flags                            bit 0: has triangle 1; bits 1-2, 3: rotation and reversal of triangle 0;
-//                                           bits 4-5, 6: of triangle 1; bits 8, 9: triangle 0, 1 is degenerate
+//   float  v0[3], v1[3], v2[3], v3[3]       triangle 0 = (v0, v1, v2), triangle 1 = (v0, v2, v3); lone: v3 =
+//   v2 uint32 primitive_ids[2]                 lone: the same twice uint32 flags bit 0: has triangle 1; bits
+//   1-2, 3: rotation and reversal of triangle 0;
+//                                           bits 4-5, 6: of triangle 1; bits 8, 9: triangle 0, 1 is
+//                                           degenerate
 //   uint32 zero
 
 #include <array>
@@ -36,6 +37,8 @@ namespace rtu::model {
 inline constexpr std::uint32_t image_block_bytes = 64;
 inline constexpr std::uint32_t max_bvh_width = 8;
 inline constexpr std::uint32_t max_leaf_pairs = 8;
+inline constexpr std::uint64_t max_image_bytes = std::uint64_t(image_block_bytes)
+                                                 << 28;  ///< what a NodeRef can address
 
 /// Where a child lies in the image, and what it is; 4 bytes, as stored in nodes.
 class NodeRef {
@@ -48,7 +51,9 @@ class NodeRef {
         return NodeRef(0x8000'0000U | (pair_count - 1) << 28 | std::uint32_t(address / image_block_bytes));
     }
     [[nodiscard]] bool is_leaf() const { return (bits_ & 0x8000'0000U) != 0; }
-    [[nodiscard]] std::uint64_t address() const { return std::uint64_t(bits_ & 0x0fff'ffffU) * image_block_bytes; }
+    [[nodiscard]] std::uint64_t address() const {
+        return std::uint64_t(bits_ & 0x0fff'ffffU) * image_block_bytes;
+    }
     /// Pairs in the leaf, 1..8; 1 for an inner node.
     [[nodiscard]] std::uint32_t pair_count() const { return ((bits_ >> 28) & 7U) + 1; }
     friend bool operator==(NodeRef, NodeRef) = default;
@@ -66,7 +71,8 @@ struct alignas(image_block_bytes) Node {
     std::array<NodeRef, Width> child;
     std::uint32_t child_count;
 };
-static_assert(sizeof(Node<2>) == 64 && sizeof(Node<4>) == 128 && sizeof(Node<6>) == 192 && sizeof(Node<8>) == 256);
+static_assert(sizeof(Node<2>) == 64 && sizeof(Node<4>) == 128 && sizeof(Node<6>) == 192 &&
+              sizeof(Node<8>) == 256);
 
 /// A pair exactly as it lies in the image.
 struct alignas(image_block_bytes) LeafPair {
@@ -81,7 +87,9 @@ struct alignas(image_block_bytes) LeafPair {
         return {std::uint8_t(bits & 3U), (bits & 4U) != 0};
     }
     /// A degenerate triangle (exactly zero area) is stored but never hit.
-    [[nodiscard]] bool is_degenerate(std::uint32_t triangle) const { return (flags >> (8 + triangle) & 1U) != 0; }
+    [[nodiscard]] bool is_degenerate(std::uint32_t triangle) const {
+        return (flags >> (8 + triangle) & 1U) != 0;
+    }
 };
 static_assert(sizeof(LeafPair) == image_block_bytes);
 
@@ -101,7 +109,9 @@ struct MemoryImage {
     std::uint64_t leaf_count = 0;
     std::uint64_t pair_count = 0;  ///< pairs and lone triangles in all leaves
 
-    [[nodiscard]] static std::uint64_t node_bytes(std::uint32_t width) { return (width * 28 + 4 + 63) / 64 * 64; }
+    [[nodiscard]] static std::uint64_t node_bytes(std::uint32_t width) {
+        return (width * 28 + 4 + 63) / 64 * 64;
+    }
     [[nodiscard]] std::uint64_t size_bytes() const { return blocks.size() * image_block_bytes; }
     [[nodiscard]] NodeRef root() const { return NodeRef::inner(0); }
     template <std::uint32_t Width>

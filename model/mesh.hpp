@@ -23,7 +23,10 @@ struct TriangleMesh {
 /// Box around the triangles' corners (vertices that no triangle uses do not count); empty for no triangles.
 [[nodiscard]] Aabb bounds(const TriangleMesh& mesh);
 
-/// Number of triangles of exactly zero area (two corners at one place, or three on one line).
+/// True for a triangle of exactly zero area: two corners at one place, or three on one line.
+[[nodiscard]] bool is_degenerate(const TriangleMesh& mesh, const Triangle& triangle);
+
+/// Number of degenerate triangles.
 [[nodiscard]] std::uint64_t count_degenerate(const TriangleMesh& mesh);
 
 }  // namespace rtu::model

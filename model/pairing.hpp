@@ -12,10 +12,14 @@ namespace rtu::model {
 
 enum class PairingKind : std::uint8_t { None, Window, EdgeBbsa };
 
+/// The largest N of window:N.
+inline constexpr std::uint32_t max_pairing_window = 65536;
+
 /// A pairing method as written on the command line: `none`, `window:N` (N in [2, 65536]) or `edge_bbsa`.
 struct PairingMethod {
     PairingKind kind = PairingKind::EdgeBbsa;
     std::uint32_t window = 0;  ///< N of window:N, else 0
+    friend bool operator==(const PairingMethod&, const PairingMethod&) = default;
 };
 
 /// When two triangles' corners are the same vertex: equal index in the file, or bit-equal position.
@@ -41,8 +45,8 @@ struct Pairing {
     }
 };
 
-/// Pairs the triangles of `mesh`. Deterministic. Pairs store file vertex indices whatever the identity; where the
-/// identity is by position, the two triangles' common corners may differ in index but not in position.
+/// Pairs the triangles of `mesh`. Deterministic. Pairs store file vertex indices whatever the identity; where
+/// the identity is by position, the two triangles' common corners may differ in index but not in position.
 /// Sources: window:N and edge_bbsa are [AF] (docs/model.md).
 [[nodiscard]] Pairing pair_triangles(const TriangleMesh& mesh, PairingMethod method, EdgeIdentity identity);
 

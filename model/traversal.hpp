@@ -16,6 +16,13 @@ struct TraversalCounts {
     std::uint64_t box_tests = 0;
     std::uint64_t pair_tests = 0;
     std::uint64_t triangle_tests = 0;
+    TraversalCounts& operator+=(const TraversalCounts& other) {
+        node_visits += other.node_visits;
+        box_tests += other.box_tests;
+        pair_tests += other.pair_tests;
+        triangle_tests += other.triangle_tests;
+        return *this;
+    }
     friend bool operator==(const TraversalCounts&, const TraversalCounts&) = default;
 };
 
@@ -25,38 +32,63 @@ struct StackEntry {
     float t_near = 0;
 };
 
-/// One ray under way. The stack's capacity must be at least `stack_capacity(image)`.
+/// A traversal stack that is made large enough once, so that nothing is checked in the hot loop.
+class TraversalStack {
+  public:
+    /// Forgets all entries and makes room for `capacity`.
+    void reset(std::size_t capacity) {
+        size_ = 0;
+        if (entries_.size() < capacity) entries_.resize(capacity);
+    }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    /// Requires size() < capacity.
+    void push(StackEntry entry) { entries_[size_++] = entry; }
+    /// Requires size() > 0.
+    StackEntry pop() { return entries_[--size_]; }
+    [[nodiscard]] StackEntry& operator[](std::size_t index) { return entries_[index]; }
+
+  private:
+    std::vector<StackEntry> entries_;
+    std::size_t size_ = 0;
+};
+
+/// One ray under way.
 struct Traversal {
     RaySetup ray;
     RayKind kind = RayKind::ClosestHit;
     Hit best;  ///< best.t = t_max until something is hit
     bool has_hit = false;
     StackEntry current;
-    std::vector<StackEntry> stack;
+    TraversalStack stack;
 };
 
 /// Entries that a traversal of this image can ever stack: (width - 1) a level.
 [[nodiscard]] std::size_t stack_capacity(const MemoryImage& image);
 
-/// Puts `traversal` at the root for a new ray; its stack keeps its memory. False: the ray cannot hit anything (a
-/// component is not finite, the direction is zero, or the interval is empty) and must not be traversed.
+/// Puts `traversal` at the root for a new ray; its stack keeps its memory and has room for the whole walk. False: the ray cannot hit anything
+/// (a component is not finite, the direction is zero, or the interval is empty) and must not be traversed.
 [[nodiscard]] bool start(Traversal& traversal, const MemoryImage& image, const Ray& ray, RayKind kind);
 
-/// Tests all children of `current` (an inner node) and pushes those that the ray enters, far ones first; among equal
-/// distances the lower child index is visited first. Returns the number of boxes tested.
+/// Boxes that a visit of inner node `ref` tests: its children, 1 to width.
+[[nodiscard]] std::uint32_t child_count(const MemoryImage& image, NodeRef ref);
+
+/// Tests all children of `current` (an inner node) and pushes those that the ray enters, far ones first;
+/// among equal distances the lower child index is visited first. Returns the number of boxes tested.
 std::uint32_t visit_node(Traversal& traversal, const MemoryImage& image);
 
-/// What one pair test found: how many of the pair's triangles the ray's line pierces (0, 1; 2 for a folded pair).
+/// What one pair test found: how many of the pair's triangles the ray's line pierces (0, 1; 2 for a folded
+/// pair).
 struct PairVisit {
     std::uint32_t triangle_tests = 0;
     std::uint32_t pierced = 0;
 };
 
-/// Tests pair `index` of `current` (a leaf) and keeps the nearer hit; of equal t the lowest primitive id wins.
+/// Tests pair `index` of `current` (a leaf) and keeps the nearer hit; of equal t the lowest primitive id
+/// wins.
 PairVisit visit_pair(Traversal& traversal, const MemoryImage& image, std::uint32_t index);
 
-/// Pops entries until one can still matter (it starts no farther than the best hit) and makes it `current`; entries
-/// at or below `floor` stay. False when none is left above `floor`.
+/// Pops entries until one can still matter (it starts no farther than the best hit) and makes it `current`;
+/// entries at or below `floor` stay. False when none is left above `floor`.
 [[nodiscard]] bool pop(Traversal& traversal, std::size_t floor = 0);
 
 /// True when an any-hit ray has its answer.
@@ -67,7 +99,7 @@ PairVisit visit_pair(Traversal& traversal, const MemoryImage& image, std::uint32
                                        TraversalCounts* counts = nullptr);
 
 /// The same, reusing `scratch` for the stack: for many rays on one thread.
-[[nodiscard]] std::optional<Hit> trace(Traversal& scratch, const MemoryImage& image, const Ray& ray, RayKind kind,
-                                       TraversalCounts* counts = nullptr);
+[[nodiscard]] std::optional<Hit> trace(Traversal& scratch, const MemoryImage& image, const Ray& ray,
+                                       RayKind kind, TraversalCounts* counts = nullptr);
 
 }  // namespace rtu::model

@@ -1,0 +1,129 @@
+#include "model/workload.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "model/error.hpp"
+#include "model/sampling.hpp"
+#include "model/surface.hpp"
+#include "model/traversal.hpp"
+
+namespace rtu::model {
+namespace {
+
+constexpr std::array<std::pair<WorkloadKind, std::string_view>, 5> kind_names{
+    {{WorkloadKind::Primary, "primary"},
+     {WorkloadKind::Shadow, "shadow"},
+     {WorkloadKind::AmbientOcclusion, "ao"},
+     {WorkloadKind::Diffuse, "diffuse"},
+     {WorkloadKind::Random, "random"}}};
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// What the rays of one workload are made from; shared by all pixels, read only.
+struct Setting {
+    const TriangleMesh& mesh;
+    const MemoryImage& image;
+    const Camera& camera;
+    Resolution resolution;
+    std::uint64_t seed;
+    Vec3 light;
+    float ao_distance;
+};
+
+// A point light to the upper right of the eye, half way to the first surface there and at most half of the
+// scene's diagonal away: in a room it stays in the room, and everywhere it lights some of what the camera
+// sees and not all.
+Vec3 place_light(const MemoryImage& image, const Camera& camera) {
+    const Ray view = camera_ray(camera, {1, 1}, 0, 0);
+    const Vec3 right = direction_of(cross(view.direction, camera.up)).value_or(Vec3{1, 0, 0});
+    const Vec3 direction = normalized(right + cross(right, view.direction));
+    const float limit = distance_between(image.bounds.lo, image.bounds.hi);
+    const std::optional<Hit> hit = trace(image, {camera.eye, 0, direction, limit}, RayKind::ClosestHit);
+    return camera.eye + direction * (0.5F * (hit ? hit->t : limit));
+}
+
+Ray pixel_ray(const Setting& setting, std::uint32_t pixel) {
+    return camera_ray(setting.camera, setting.resolution, pixel % setting.resolution.width,
+                      pixel / setting.resolution.width);
+}
+
+std::optional<Ray> random_ray(const Setting& setting, std::uint32_t pixel) {
+    RandomStream random(setting.seed, std::uint32_t(WorkloadKind::Random), pixel);
+    const Vec3 from = sample_box(random, setting.image.bounds);
+    const std::optional<Vec3> direction = direction_between(from, sample_box(random, setting.image.bounds));
+    if (!direction) return std::nullopt;
+    return Ray{from, 0, *direction, infinity};
+}
+
+std::optional<Ray> secondary_ray(const Setting& setting, WorkloadKind kind, std::uint32_t pixel,
+                                 const SurfacePoint& point) {
+    if (kind == WorkloadKind::Shadow) {
+        const std::optional<Vec3> direction = direction_between(point.origin, setting.light);
+        if (!direction) return std::nullopt;
+        // Ends just short of the light, so that the light could sit on a surface.
+        return Ray{point.origin, 0, *direction,
+                   distance_between(point.origin, setting.light) * (1 - 0x1p-12F)};
+    }
+    RandomStream random(setting.seed, std::uint32_t(kind), pixel);
+    const float t_max = kind == WorkloadKind::AmbientOcclusion ? setting.ao_distance : infinity;
+    return Ray{point.origin, 0, sample_cosine(random, point.normal), t_max};
+}
+
+std::optional<Ray> make_ray(const Setting& setting, WorkloadKind kind, std::uint32_t pixel,
+                            Traversal& scratch) {
+    if (kind == WorkloadKind::Random) return random_ray(setting, pixel);
+    const Ray primary = pixel_ray(setting, pixel);
+    if (kind == WorkloadKind::Primary) return primary;
+    const std::optional<Hit> hit = trace(scratch, setting.image, primary, RayKind::ClosestHit);
+    if (!hit) return std::nullopt;
+    const std::optional<SurfacePoint> point = surface_point(setting.mesh, *hit, primary.direction);
+    if (!point) return std::nullopt;
+    return secondary_ray(setting, kind, pixel, *point);
+}
+
+}  // namespace
+
+WorkloadKind parse_workload_kind(std::string_view text) {
+    for (const auto& [kind, name] : kind_names) {
+        if (text == name) return kind;
+    }
+    throw Error("workload: expected primary, shadow, ao, diffuse or random, got '{}'", text);
+}
+
+std::string_view to_string(WorkloadKind kind) { return kind_names[std::size_t(kind)].second; }
+
+Workload make_workload(WorkloadKind kind, const TriangleMesh& mesh, const MemoryImage& image,
+                       const Camera& camera, Resolution resolution, std::uint64_t seed) {
+    const Setting setting{mesh,
+                          image,
+                          camera,
+                          resolution,
+                          seed,
+                          place_light(image, camera),
+                          0.1F * distance_between(image.bounds.lo, image.bounds.hi)};
+    const std::uint32_t pixel_count = resolution.width * resolution.height;
+    std::vector<std::optional<Ray>> rays(pixel_count);
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, pixel_count, 256), [&](const auto& range) {
+        Traversal scratch;
+        for (std::uint32_t pixel = range.begin(); pixel != range.end(); ++pixel) {
+            rays[pixel] = make_ray(setting, kind, pixel, scratch);
+        }
+    });
+    const bool is_any_hit = kind == WorkloadKind::Shadow || kind == WorkloadKind::AmbientOcclusion;
+    Workload workload{
+        std::string(to_string(kind)), is_any_hit ? RayKind::AnyHit : RayKind::ClosestHit, {}, {}};
+    for (std::uint32_t pixel = 0; pixel < pixel_count; ++pixel) {
+        if (!rays[pixel]) continue;
+        workload.rays.push_back(*rays[pixel]);
+        workload.pixels.push_back(pixel);
+    }
+    return workload;
+}
+
+}  // namespace rtu::model

@@ -1,0 +1,219 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <limits>
+
+#include "meshes.hpp"
+#include "model/difference_of_products.hpp"
+#include "model/pair_test.hpp"
+#include "model/ray_setup.hpp"
+
+namespace rtu::model {
+namespace {
+
+using test::Random;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+LeafPair lone(const TriangleMesh& mesh, std::uint32_t id) {
+    const Triangle& t = mesh.triangles[id];
+    return make_leaf_pair({.vertices = {t[0], t[1], t[2], t[2]}, .primitive_ids = {id, id}}, mesh.positions);
+}
+
+RaySetup setup(Vec3 origin, Vec3 direction, const Aabb& box) {
+    return *make_ray_setup({origin, 0, direction, infinity}, box);
+}
+
+// How many triangles of the mesh the ray pierces in front of its origin: tested one by one, no BVH.
+int count_hits(const std::vector<LeafPair>& leaves, const RaySetup& ray) {
+    int hits = 0;
+    for (const LeafPair& leaf : leaves) {
+        const PairHits found = test_pair(leaf, ray, -infinity);
+        hits += found.is_pierced[0] && found.hits[0].t > 0 ? 1 : 0;
+    }
+    return hits;
+}
+
+std::vector<LeafPair> all_lone(const TriangleMesh& mesh) {
+    std::vector<LeafPair> leaves;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) leaves.push_back(lone(mesh, i));
+    return leaves;
+}
+
+const TriangleMesh one_triangle{"one", {{0, 0, 5}, {4, 0, 5}, {0, 4, 5}}, {{0, 1, 2}}};
+
+// Against rational arithmetic: every result is the exact difference, rounded once.
+TEST(DifferenceOfProducts, IsRoundedOnce) {
+    Random random(11);
+    const auto pick = [&] {
+        const float mantissa = random.uniform(-1, 1);
+        return std::ldexp(mantissa, int(random.below(40)) - 20);
+    };
+    using Exact = boost::multiprecision::cpp_rational;
+    for (int i = 0; i < 200'000; ++i) {
+        const float a = pick(), b = pick(), c = i % 3 == 0 ? a : pick(),
+                    d = i % 3 == 0 ? std::nextafter(b, 9.0F) : pick();
+        const float result = difference_of_products(a, b, c, d);
+        const Exact exact = Exact(double(a)) * Exact(double(b)) - Exact(double(c)) * Exact(double(d));
+        const auto distance = [&](float x) { return Exact(abs(Exact(double(x)) - exact)); };
+        ASSERT_LE(distance(result), distance(std::nextafter(result, 1e30F)));
+        ASSERT_LE(distance(result), distance(std::nextafter(result, -1e30F)));
+        ASSERT_EQ(result > 0, exact > 0);
+        ASSERT_EQ(result < 0, exact < 0);
+    }
+}
+
+TEST(PairTest, ReportsDistanceAndBarycentricsOfTheFilesCorners) {
+    const RaySetup ray = setup({1, 2, 1}, {0, 0, 2}, bounds(one_triangle));
+    const PairHits found = test_pair(lone(one_triangle, 0), ray, -infinity);
+    ASSERT_TRUE(found.is_pierced[0]);
+    EXPECT_FALSE(found.is_pierced[1]);
+    EXPECT_EQ(found.hits[0], (Hit{2.0F, 0.25F, 0.5F, 0}));
+}
+
+TEST(PairTest, CountsBothSides) {
+    const RaySetup ray = setup({1, 2, 9}, {0, 0, -1}, bounds(one_triangle));
+    EXPECT_TRUE(test_pair(lone(one_triangle, 0), ray, -infinity).is_pierced[0]);
+}
+
+TEST(PairTest, RaisesAHitToTheEntryOfItsBox) {
+    const RaySetup ray = setup({1, 2, 1}, {0, 0, 2}, bounds(one_triangle));
+    EXPECT_EQ(test_pair(lone(one_triangle, 0), ray, 2.5F).hits[0].t, 2.5F);
+}
+
+// The stored corner order must not show in u and v.
+TEST(PairTest, MapsBarycentricsBackThroughEveryCornerOrder) {
+    const RaySetup ray = setup({1, 0.5F, 1}, {0.1F, 0.05F, 2}, bounds(one_triangle));
+    const Hit expected = test_pair(lone(one_triangle, 0), ray, -infinity).hits[0];
+    for (std::uint8_t rotation = 0; rotation < 3; ++rotation) {
+        for (const bool is_reversed : {false, true}) {
+            TrianglePair pair{.primitive_ids = {0, 0},
+                              .corner_order = {CornerOrder{rotation, is_reversed}, {}}};
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                pair.vertices[(rotation + (is_reversed ? 3 - k : k)) % 3] = one_triangle.triangles[0][k];
+            }
+            pair.vertices[3] = pair.vertices[2];
+            const PairHits found = test_pair(make_leaf_pair(pair, one_triangle.positions), ray, -infinity);
+            ASSERT_TRUE(found.is_pierced[0]);
+            EXPECT_FLOAT_EQ(found.hits[0].u, expected.u);
+            EXPECT_FLOAT_EQ(found.hits[0].v, expected.v);
+        }
+    }
+}
+
+TEST(PairTest, IsBitForBitTwoSingleTests) {
+    Random random(1);
+    std::uint32_t hits = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        TriangleMesh mesh{"quad", {}, {{0, 1, 2}, {0, 2, 3}}};
+        for (int k = 0; k < 4; ++k) mesh.positions.push_back(random.point(-1, 1));
+        // Aim at the pair, at its common edge or at a common vertex.
+        const Vec3 a = mesh.positions[0], c = mesh.positions[2];
+        const Vec3 target = i % 3 == 0   ? a
+                            : i % 3 == 1 ? a + (c - a) * random.uniform(0, 1)
+                                         : random.point(-1, 1);
+        const Vec3 origin = random.point(-3, 3);
+        const RaySetup ray = setup(origin, target - origin, bounds(mesh));
+        const LeafPair pair = make_leaf_pair(
+            {.vertices = {0, 1, 2, 3}, .primitive_ids = {0, 1}, .corner_order = {}, .has_second = true},
+            mesh.positions);
+        const PairHits both = test_pair(pair, ray, -infinity);
+        for (std::uint32_t id = 0; id < 2; ++id) {
+            const PairHits single = test_pair(lone(mesh, id), ray, -infinity);
+            ASSERT_EQ(both.is_pierced[id], single.is_pierced[0]);
+            if (!single.is_pierced[0]) continue;
+            ++hits;
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(both.hits[id].t),
+                      std::bit_cast<std::uint32_t>(single.hits[0].t));
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(both.hits[id].u),
+                      std::bit_cast<std::uint32_t>(single.hits[0].u));
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(both.hits[id].v),
+                      std::bit_cast<std::uint32_t>(single.hits[0].v));
+        }
+    }
+    EXPECT_GT(hits, 50'000U);
+}
+
+TEST(PairTest, PiercesAFoldedPairTwice) {
+    const TriangleMesh mesh{"folded", {{-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, -1, 2}}, {}};
+    const LeafPair pair = make_leaf_pair(
+        {.vertices = {0, 1, 2, 3}, .primitive_ids = {0, 1}, .corner_order = {}, .has_second = true},
+        mesh.positions);
+    const PairHits found = test_pair(pair, setup({-0.5F, -0.5F, 0}, {0, 0, 1}, bounds(mesh)), -infinity);
+    EXPECT_TRUE(found.is_pierced[0]);
+    EXPECT_TRUE(found.is_pierced[1]);
+    EXPECT_LT(found.hits[0].t, found.hits[1].t);
+}
+
+// A ray from inside a closed convex mesh leaves it exactly once, wherever it is aimed.
+class ClosedMesh : public testing::TestWithParam<float> {};
+
+TEST_P(ClosedMesh, IsLeftExactlyOnceThroughEveryVertexAndEdge) {
+    const float offset = GetParam();
+    const Vec3 centre{offset, -offset, 0.5F * offset};
+    const TriangleMesh mesh = test::closed_sphere(12, centre, 2.0F);
+    const auto leaves = all_lone(mesh);
+    const Aabb box = bounds(mesh);
+    Random random(7);
+    for (int i = 0; i < 4'000; ++i) {
+        const Triangle& t = mesh.triangles[random.below(std::uint32_t(mesh.triangles.size()))];
+        const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]];
+        const Vec3 target = i % 2 == 0 ? a : a + (b - a) * random.uniform(0, 1);
+        const Vec3 origin = centre + random.point(-0.5F, 0.5F);
+        ASSERT_EQ(count_hits(leaves, setup(origin, target - origin, box)), 1) << "ray " << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(AtOffsets, ClosedMesh, testing::Values(0.0F, 1e3F, 1e4F, 148376.0F, 1e5F));
+
+TEST(PairTest, AxisAlignedRaysLeaveAGridBoxExactlyOnce) {
+    const TriangleMesh mesh = test::closed_box(8, {-1, -1, -1}, {1, 1, 1});
+    const auto leaves = all_lone(mesh);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const float sign : {-1.0F, 1.0F}) {
+            for (const float zero : {0.0F, -0.0F}) {
+                for (int i = 1; i < 16; ++i) {
+                    for (int j = 1; j < 16; ++j) {
+                        Vec3 origin{}, direction{zero, zero, zero};
+                        origin[(axis + 1) % 3] = float(i) / 8 - 1;
+                        origin[(axis + 2) % 3] = float(j) / 8 - 1;
+                        direction[axis] = sign;
+                        ASSERT_EQ(count_hits(leaves, setup(origin, direction, bounds(mesh))), 1);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(PairTest, NeverHitsADegenerateTriangle) {
+    Random random(3);
+    for (int i = 0; i < 10'000; ++i) {
+        TriangleMesh mesh{"line", {}, {{0, 1, 2}}};
+        const auto grid = [&] { return float(int(random.below(64)) - 32); };
+        const Vec3 a{grid(), grid(), grid()}, step{grid(), grid(), grid()};
+        mesh.positions = {a, a + step * 2.0F, a + step * float(random.below(4))};
+        const Vec3 origin = random.point(-90, 90);
+        const Vec3 target =
+            mesh.positions[0] + (mesh.positions[1] - mesh.positions[0]) * random.uniform(0, 1);
+        const RaySetup ray = setup(origin, target - origin, bounds(mesh));
+        ASSERT_FALSE(test_pair(lone(mesh, 0), ray, -infinity).is_pierced[0]);
+    }
+}
+
+TEST(RaySetup, RefusesRaysThatCannotHit) {
+    const Aabb box = bounds(one_triangle);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(make_ray_setup({{nan, 0, 0}, 0, {0, 0, 1}, 1}, box));
+    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, 0, {0, nan, 1}, 1}, box));
+    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, 0, {0, infinity, 1}, 1}, box));
+    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, 0, {0, 0, 0}, 1}, box));
+    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, 1, {0, 0, 1}, 1}, box));
+    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, nan, {0, 0, 1}, 1}, box));
+    EXPECT_TRUE(make_ray_setup({{0, 0, 0}, 0, {0, 0, 1e-40F}, infinity}, box));
+}
+
+}  // namespace
+}  // namespace rtu::model

@@ -1,0 +1,176 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "meshes.hpp"
+#include "model/pair_test.hpp"
+#include "model/slab_test.hpp"
+#include "model/traversal.hpp"
+
+namespace rtu::model {
+namespace {
+
+using test::image_of;
+using test::Random;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+Ray ray_between(Vec3 from, Vec3 to, float t_max = infinity) { return {from, 0, to - from, t_max}; }
+
+// The entry of the leaf's box, as traversal computes it, without a tree: a one-child node around the pair.
+float box_entry(const LeafPair& pair, const RaySetup& ray) {
+    Node<2> node{};
+    node.child_count = 1;
+    Aabb box;
+    for (const Vec3& v : pair.vertices) box.extend(v);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        node.lo[axis] = {box.lo[axis], infinity};
+        node.hi[axis] = {box.hi[axis], -infinity};
+    }
+    return slab_test(node, ray, ray.t_max).t_near[0];
+}
+
+// Every pair against the ray, nearest hit, lowest primitive id: no tree, no boxes that could cull.
+std::optional<Hit> brute_force(const MemoryImage& image, const Ray& ray) {
+    const auto setup = make_ray_setup(ray, image.bounds);
+    std::optional<Hit> best;
+    if (!setup) return best;
+    const std::uint64_t first = image.node_count * MemoryImage::node_bytes(image.width);
+    for (std::uint64_t i = 0; i < image.pair_count; ++i) {
+        const LeafPair& pair = image.leaf_pair(NodeRef::leaf(first + i * image_block_bytes, 1), 0);
+        const PairHits found = test_pair(pair, *setup, box_entry(pair, *setup));
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Hit& hit = found.hits[k];
+            if (!found.is_pierced[k] || !(hit.t > ray.t_min && hit.t < ray.t_max)) continue;
+            if (!best || hit.t < best->t || (hit.t == best->t && hit.primitive_id < best->primitive_id))
+                best = hit;
+        }
+    }
+    return best;
+}
+
+class Width : public testing::TestWithParam<BvhOptions> {};
+
+TEST_P(Width, FindsWhatBruteForceFinds) {
+    int hits = 0;
+    for (const TriangleMesh& mesh :
+         {test::triangle_soup(300, 1, 0.2F), test::closed_sphere(8, {0.5F, 0.5F, 0.5F}, 0.4F),
+          test::closed_box(4, {0, 0, 0}, {1, 1, 1})}) {
+        const MemoryImage image = image_of(mesh, GetParam());
+        Random random(2);
+        for (int i = 0; i < 3'000; ++i) {
+            Ray ray = ray_between(random.point(-1, 2), random.point(0, 1), i % 4 == 0 ? 0.8F : infinity);
+            if (i % 5 == 0) ray.t_min = 0.5F;
+            if (i % 7 == 0) ray.direction[std::size_t(i) % 3] = 0;
+            const auto expected = brute_force(image, ray);
+            ASSERT_EQ(trace(image, ray, RayKind::ClosestHit), expected) << "ray " << i;
+            ASSERT_EQ(trace(image, ray, RayKind::AnyHit).has_value(), expected.has_value()) << "ray " << i;
+            hits += expected ? 1 : 0;
+        }
+    }
+    EXPECT_GT(hits, 3'000);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Width,
+                         testing::Values(BvhOptions{2, 1}, BvhOptions{4, 1}, BvhOptions{6, 1},
+                                         BvhOptions{8, 1}, BvhOptions{4, 4}));
+
+// Long thin triangles, far offsets, rays near the plane's edges: where a slab test without a bound on the
+// shear's rounding would cull boxes of accepted hits.
+TEST(Traversal, LosesNoAcceptedHitToABox) {
+    for (const float offset : {0.0F, 1e3F, 1e5F}) {
+        Random random(9);
+        for (int i = 0; i < 20'000; ++i) {
+            const Vec3 centre{offset, offset, -offset};
+            const float z = random.uniform(0.001F, 0.01F);
+            TriangleMesh mesh{
+                "sliver",
+                {centre + Vec3{-1000, 1, z}, centre + Vec3{1000, 1, z},
+                 centre + Vec3{random.uniform(-1000, 1000), 1, z + random.uniform(1e-4F, 1000.0F)}},
+                {{0, 1, 2}}};
+            const MemoryImage image = image_of(mesh, {}, {PairingKind::None, 0});
+            const Vec3 target =
+                mesh.positions[0] + (mesh.positions[1] - mesh.positions[0]) * random.uniform(0, 1);
+            const Vec3 origin = centre + random.point(-0.5F, 0.5F);
+            const Ray ray = ray_between(origin, target);
+            ASSERT_EQ(trace(image, ray, RayKind::ClosestHit), brute_force(image, ray)) << "ray " << i;
+        }
+    }
+}
+
+TEST(Traversal, NeverLeaksThroughAClosedMesh) {
+    for (const float offset : {0.0F, 1e3F, 148376.0F}) {
+        const Vec3 centre{offset, -offset, offset};
+        const TriangleMesh mesh = test::closed_sphere(40, centre, 2);
+        const MemoryImage image = image_of(mesh);
+        Random random(4);
+        for (int i = 0; i < 30'000; ++i) {
+            const Triangle& t = mesh.triangles[random.below(std::uint32_t(mesh.triangles.size()))];
+            const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]];
+            const Vec3 target = i % 2 == 0 ? a : a + (b - a) * random.uniform(0, 1);
+            const Ray ray = ray_between(centre + random.point(-0.5F, 0.5F), target);
+            ASSERT_TRUE(trace(image, ray, RayKind::ClosestHit)) << "offset " << offset << " ray " << i;
+        }
+    }
+}
+
+TEST(Traversal, GivesEqualDistancesToTheLowestPrimitive) {
+    TriangleMesh mesh = test::triangle_soup(1, 8);
+    mesh.triangles.assign(64, mesh.triangles[0]);
+    const auto& p = mesh.positions;
+    const Vec3 middle = (p[0] + p[1] + p[2]) * (1.0F / 3.0F);
+    for (const std::uint32_t width : {2U, 4U, 6U, 8U}) {
+        const auto hit =
+            trace(image_of(mesh, {width, 1}), ray_between({5, 6, 7}, middle), RayKind::ClosestHit);
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->primitive_id, 0U);
+    }
+}
+
+TEST(Traversal, CountsWhatItDoes) {
+    const TriangleMesh mesh = test::triangle_soup(1, 8);
+    const MemoryImage image = image_of(mesh);
+    TraversalCounts counts;
+    (void)trace(image, ray_between({5, 6, 7}, image.bounds.lo), RayKind::ClosestHit, &counts);
+    EXPECT_EQ(counts.node_visits, 1U);
+    EXPECT_EQ(counts.box_tests, 1U);
+    EXPECT_EQ(counts.pair_tests, counts.triangle_tests);
+}
+
+TEST(Traversal, MissesWithRaysThatCannotHit) {
+    const MemoryImage image = image_of(test::triangle_soup(20, 8));
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    TraversalCounts counts;
+    EXPECT_FALSE(trace(image, {{nan, 0, 0}, 0, {0, 0, 1}, 1}, RayKind::ClosestHit, &counts));
+    EXPECT_FALSE(trace(image, {{0, 0, 0}, 0, {0, 0, 0}, 1}, RayKind::AnyHit, &counts));
+    EXPECT_FALSE(trace(image, {{0, 0, 0}, 2, {0, 0, 1}, 1}, RayKind::ClosestHit, &counts));
+    EXPECT_EQ(counts, TraversalCounts{});
+}
+
+TEST(Traversal, NeverNeedsMoreStackThanItSays) {
+    const TriangleMesh mesh = test::triangle_soup(3'000, 12, 0.3F);
+    for (const std::uint32_t width : {2U, 4U, 6U, 8U}) {
+        const MemoryImage image = image_of(mesh, {width, 1});
+        Traversal traversal;
+        std::size_t deepest = 0;
+        Random random(5);
+        for (int i = 0; i < 300; ++i) {
+            bool is_running = start(traversal, image, ray_between(random.point(-1, 2), random.point(0, 1)),
+                                    RayKind::ClosestHit);
+            while (is_running) {
+                if (traversal.current.ref.is_leaf()) {
+                    visit_pair(traversal, image, 0);
+                } else {
+                    visit_node(traversal, image);
+                }
+                deepest = std::max(deepest, traversal.stack.size());
+                is_running = pop(traversal);
+            }
+        }
+        EXPECT_LE(deepest, stack_capacity(image));
+        EXPECT_GT(deepest, width);
+    }
+}
+
+}  // namespace
+}  // namespace rtu::model

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/half_edge.hpp"
+#include "model/scratch_memory.hpp"
+
+namespace rtu::model {
+
+/// Which triangles are paired with which, and on which of their sides. Lives no longer than its memory.
+class Matching {
+  public:
+    Matching(std::uint32_t triangle_count, ScratchMemory& memory)
+        : is_paired_(triangle_count), partner_(memory.take<HalfEdge>(triangle_count)) {
+        for (std::uint32_t t = 0; t < triangle_count; ++t) partner_[t] = {3 * t};
+    }
+    [[nodiscard]] std::uint32_t triangle_count() const { return std::uint32_t(partner_.size()); }
+    [[nodiscard]] std::uint32_t pair_count() const { return pair_count_; }
+    [[nodiscard]] bool is_free(std::uint32_t triangle) const { return !is_paired_[triangle]; }
+    /// The side on which a paired triangle's partner meets it; a free triangle is its own partner.
+    [[nodiscard]] HalfEdge partner(std::uint32_t triangle) const { return partner_[triangle]; }
+    /// Pairs two triangles on these sides if they are different and both free; returns whether it did.
+    bool try_pair(HalfEdge a, HalfEdge b) {
+        const std::uint32_t t = a.triangle(), u = b.triangle();
+        // One branch on three conditions: each alone is hard to predict.
+        if ((t == u) | is_paired_[t] | is_paired_[u]) return false;
+        is_paired_[t] = is_paired_[u] = true;
+        partner_[t] = b;
+        partner_[u] = a;
+        ++pair_count_;
+        return true;
+    }
+
+  private:
+    std::vector<bool> is_paired_;  // one bit a triangle stays in the cache
+    std::span<HalfEdge> partner_;
+    std::uint32_t pair_count_ = 0;
+};
+
+}  // namespace rtu::model

@@ -1,0 +1,117 @@
+#pragma once
+
+// Pairing as the definitions read, slow and without cleverness: what the fast implementation is compared
+// with.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "model/mesh.hpp"
+#include "model/pairing.hpp"
+
+namespace rtu::test {
+
+using Partners = std::vector<std::optional<std::uint32_t>>;  ///< [triangle_count] nothing for a lone triangle
+
+/// One column of the paper's table.
+struct HalfEdgeRecord {
+    float area;
+    std::uint32_t lower, upper, triangle;
+};
+
+/// For every vertex the lowest one that is the same under `identity`.
+inline std::vector<std::uint32_t> identify(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> seen;
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(mesh.positions[v]);
+        const std::uint32_t first = seen.try_emplace(bits, v).first->second;
+        result.push_back(identity == model::EdgeIdentity::Position ? first : v);
+    }
+    return result;
+}
+
+/// The whole half-edge table in the paper's order, ties by triangle.
+inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& mesh,
+                                                   const std::vector<std::uint32_t>& identity) {
+    std::vector<HalfEdgeRecord> table;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::uint32_t side = 0; side < 3; ++side) {
+            const std::uint32_t i = mesh.triangles[t][side], j = mesh.triangles[t][(side + 1) % 3];
+            if (identity[i] == identity[j]) continue;
+            const model::Vec3 d = mesh.positions[i] - mesh.positions[j];
+            const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
+            const float area = x * y + y * z + z * x;
+            const float key = std::isnan(area) ? std::numeric_limits<float>::infinity() : area;
+            table.push_back({key, std::min(identity[i], identity[j]), std::max(identity[i], identity[j]), t});
+        }
+    }
+    std::ranges::stable_sort(table, [](const HalfEdgeRecord& a, const HalfEdgeRecord& b) {
+        if (a.area != b.area) return a.area > b.area;
+        if (a.lower != b.lower) return a.lower < b.lower;
+        if (a.upper != b.upper) return a.upper < b.upper;
+        return a.triangle < b.triangle;
+    });
+    return table;
+}
+
+inline Partners reference_edge_bbsa(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
+    const std::vector<HalfEdgeRecord> table = half_edge_table(mesh, identify(mesh, identity));
+    Partners partners(mesh.triangles.size());
+    for (std::size_t i = 1; i < table.size(); ++i) {
+        const HalfEdgeRecord &a = table[i - 1], &b = table[i];
+        const bool is_same_edge = a.lower == b.lower && a.upper == b.upper;
+        if (!is_same_edge || a.triangle == b.triangle) continue;
+        if (partners[a.triangle] || partners[b.triangle]) continue;
+        partners[a.triangle] = b.triangle;
+        partners[b.triangle] = a.triangle;
+    }
+    return partners;
+}
+
+/// Whether two triangles have two different vertices in common.
+inline bool share_edge(const model::Triangle& s, const model::Triangle& t,
+                       const std::vector<std::uint32_t>& identity) {
+    std::array<std::uint32_t, 3> common{};
+    auto end = common.begin();
+    for (const std::uint32_t i : s) {
+        const bool is_in_t =
+            std::ranges::any_of(t, [&](std::uint32_t j) { return identity[i] == identity[j]; });
+        if (is_in_t && std::find(common.begin(), end, identity[i]) == end) *end++ = identity[i];
+    }
+    return end - common.begin() >= 2;
+}
+
+inline Partners reference_window(const model::TriangleMesh& mesh, std::uint32_t window,
+                                 model::EdgeIdentity identity) {
+    const std::vector<std::uint32_t> ids = identify(mesh, identity);
+    Partners partners(mesh.triangles.size());
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (std::uint32_t j = i + 1; j < mesh.triangles.size() && j < i + window && !partners[i]; ++j) {
+            if (partners[j] || !share_edge(mesh.triangles[i], mesh.triangles[j], ids)) continue;
+            partners[i] = j;
+            partners[j] = i;
+        }
+    }
+    return partners;
+}
+
+/// Who is paired with whom in a pairing.
+inline Partners partners_of(const model::Pairing& pairing, std::size_t triangle_count) {
+    Partners partners(triangle_count);
+    for (const model::TrianglePair& pair : pairing.pairs) {
+        if (!pair.has_second) continue;
+        partners[pair.primitive_ids[0]] = pair.primitive_ids[1];
+        partners[pair.primitive_ids[1]] = pair.primitive_ids[0];
+    }
+    return partners;
+}
+
+}  // namespace rtu::test
