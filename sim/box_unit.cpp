@@ -1,0 +1,61 @@
+#include "sim/box_unit.hpp"
+
+#include <algorithm>
+
+namespace rtu::sim {
+
+BoxUnit::BoxUnit(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu::Box& config,
+                 const model::MemoryImage& image, RaySlots& slots)
+    : ClockedUnit(name, domain),
+      config_(config),
+      image_(image),
+      slots_(slots),
+      // Room for every node that can be on its way when each has one child only.
+      pipeline_(config.latency_cycles, std::size_t(config.latency_cycles + 1) * config.boxes_per_cycle) {}
+
+Cycle BoxUnit::next_event(Cycle now) const {
+    return std::max(now + 1, lanes_free_at_ > now + 1 ? now + 1 : pipeline_.ready_at());
+}
+
+std::string BoxUnit::describe() const {
+    return fmt::format("{} nodes waiting, {} in the pipeline", nodes_in->size(), pipeline_.size());
+}
+
+Activity BoxUnit::tick(Cycle now) {
+    retire(now);
+    return issue(now);
+}
+
+void BoxUnit::retire(Cycle now) {
+    while (pipeline_.is_ready(now) && results_out->can_push(now)) results_out->push(now, pipeline_.pop());
+}
+
+Activity BoxUnit::issue(Cycle now) {
+    if (lanes_free_at_ > now) {
+        ++counters_.issue_cycles;
+        return Activity::Busy;
+    }
+    std::uint32_t free_lanes = config_.boxes_per_cycle;
+    while (free_lanes > 0 && nodes_in->can_pop(now) && !pipeline_.is_full()) {
+        const SlotToken token{nodes_in->front().tag};
+        model::Traversal& traversal = slots_[token.slot].traversal;
+        const std::uint32_t boxes = model::child_count(image_, traversal.current.ref);
+        const bool has_all_lanes = free_lanes == config_.boxes_per_cycle;
+        if (boxes > free_lanes && !has_all_lanes) break;
+        nodes_in->pop(now);
+        model::visit_node(traversal, image_);
+        ++counters_.node_visits;
+        counters_.box_tests += boxes;
+        const std::uint32_t last_cycle = (boxes - 1) / config_.boxes_per_cycle;
+        lanes_free_at_ = now + last_cycle + 1;
+        pipeline_.push(now + last_cycle, token);
+        free_lanes -= std::min(free_lanes, boxes);
+    }
+    if (free_lanes < config_.boxes_per_cycle) {
+        ++counters_.issue_cycles;
+        return Activity::Busy;
+    }
+    return nodes_in->can_pop(now) ? Activity::Blocked : Activity::Waiting;
+}
+
+}  // namespace rtu::sim

@@ -13,6 +13,9 @@ namespace {
 // Cycles per kernel activation in fast mode: enough to make the kernel's share negligible.
 constexpr Cycle batch_cycles = 64;
 
+// Cycles between two words on how far the run is: some milliseconds of host time.
+constexpr Cycle told_every_cycles = 1 << 16;
+
 const sc_core::sc_time& period() {
     static const sc_core::sc_time one(1, sc_core::SC_NS);
     return one;
@@ -51,8 +54,9 @@ ClockDomain::ClockDomain(sc_core::sc_module_name name, ClockMode mode, Cycle wat
 
 ClockDomain::~ClockDomain() = default;
 
-Cycle ClockDomain::run(std::function<bool()> is_done) {
+Cycle ClockDomain::run(std::function<bool()> is_done, std::function<void()> on_batch) {
     is_done_ = std::move(is_done);
+    on_batch_ = std::move(on_batch);
     sc_core::sc_start();
     if (failure_) std::rethrow_exception(failure_);
     return now_;
@@ -64,7 +68,7 @@ void ClockDomain::guard(const std::function<void()>& body) {
         body();
     } catch (...) {
         if (!failure_) failure_ = std::current_exception();
-        sc_core::sc_stop();
+        sc_core::sc_pause();
     }
 }
 
@@ -79,7 +83,7 @@ void ClockDomain::tick_batch() {
         for (ClockedUnit* unit : units_) unit->step(now_);
         if (is_done_()) {
             ++now_;
-            sc_core::sc_stop();
+            sc_core::sc_pause();
             return;
         }
         const Cycle next = items_ == 0 ? next_cycle() : now_ + 1;
@@ -97,7 +101,7 @@ void ClockDomain::end_of_cycle() {
     guard([this] {
         ++now_;
         if (is_done_()) {
-            sc_core::sc_stop();
+            sc_core::sc_pause();
         } else {
             watch();
         }
@@ -111,6 +115,10 @@ Cycle ClockDomain::next_cycle() const {
 }
 
 void ClockDomain::watch() {
+    if (on_batch_ && now_ - told_cycle_ >= told_every_cycles) {
+        told_cycle_ = now_;
+        on_batch_();
+    }
     if (pushes_ != watched_pushes_) {
         watched_pushes_ = pushes_;
         watched_cycle_ = now_;
@@ -120,7 +128,8 @@ void ClockDomain::watch() {
 }
 
 void ClockDomain::fail() const {
-    std::string text = fmt::format("no progress: nothing moved since cycle {} (now {})", watched_cycle_, now_);
+    std::string text =
+        fmt::format("no progress: nothing moved since cycle {} (now {})", watched_cycle_, now_);
     for (const ClockedUnit* unit : units_) text += fmt::format("\n  {}: {}", unit->name(), unit->describe());
     throw std::logic_error(text);
 }

@@ -26,8 +26,9 @@ class ClockDomain final : public sc_core::sc_module {
     ~ClockDomain() override;
 
     /// Simulates until `is_done()` holds at the end of a cycle; returns the number of cycles simulated.
-    /// Throws std::logic_error with every unit's state when nothing moves for `watchdog_cycles`.
-    Cycle run(std::function<bool()> is_done);
+    /// `on_batch()` is called now and then, to tell how far it is. Throws std::logic_error with every unit's
+    /// state when nothing moves for `watchdog_cycles`.
+    Cycle run(std::function<bool()> is_done, std::function<void()> on_batch = {});
 
     void note_push() { ++items_, ++pushes_; }
     void note_pop() { --items_; }
@@ -48,6 +49,7 @@ class ClockDomain final : public sc_core::sc_module {
     Cycle watchdog_cycles_;
     std::vector<ClockedUnit*> units_;
     std::function<bool()> is_done_;
+    std::function<void()> on_batch_;
     sc_core::sc_event next_batch_;
     std::unique_ptr<sc_core::sc_clock> clock_;
     std::exception_ptr failure_;
@@ -56,6 +58,7 @@ class ClockDomain final : public sc_core::sc_module {
     std::uint64_t pushes_ = 0;  // ever
     std::uint64_t watched_pushes_ = 0;
     Cycle watched_cycle_ = 0;
+    Cycle told_cycle_ = 0;
 };
 
 }  // namespace rtu::sim

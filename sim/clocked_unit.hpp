@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "sim/cycle.hpp"
+#include "sim/cycle_account.hpp"
 
 namespace rtu::sim {
 
@@ -16,18 +17,8 @@ enum class Activity : std::uint8_t {
     Waiting,  ///< it had nothing to move
 };
 
-/// Where a unit's cycles went; the four sum to the cycles simulated.
-struct CycleAccount {
-    std::uint64_t busy = 0;
-    std::uint64_t starved = 0;  ///< waiting between its first and its last work
-    std::uint64_t blocked = 0;
-    std::uint64_t idle = 0;  ///< waiting before its first work or after its last
-    [[nodiscard]] std::uint64_t total() const { return busy + starved + blocked + idle; }
-    friend bool operator==(const CycleAccount&, const CycleAccount&) = default;
-};
-
-/// Base of every unit. A unit is ticked once in every cycle of its domain, either by the domain's scheduler or by its own
-/// SC_METHOD (see ClockDomain); it meets other units only through channels.
+/// Base of every unit. A unit is ticked once in every cycle of its domain, either by the domain's scheduler
+/// or by its own SC_METHOD (see ClockDomain); it meets other units only through channels.
 class ClockedUnit : public sc_core::sc_module {
   public:
     ClockedUnit(sc_core::sc_module_name name, ClockDomain& domain);
@@ -37,8 +28,8 @@ class ClockedUnit : public sc_core::sc_module {
     /// Accounts for cycles in which the domain knew that nothing could happen.
     void skip(std::uint64_t cycles) { account(Activity::Waiting, cycles); }
 
-    /// The earliest cycle after `now` in which this unit acts although no channel holds anything; no_cycle when it
-    /// waits for input.
+    /// The earliest cycle after `now` in which this unit acts although no channel holds anything; no_cycle
+    /// when it waits for input.
     [[nodiscard]] virtual Cycle next_event(Cycle now) const = 0;
     /// One line for the watchdog: what the unit holds and what it waits for.
     [[nodiscard]] virtual std::string describe() const = 0;

@@ -8,11 +8,12 @@ namespace rtu::sim {
 enum class PairMode : std::uint8_t {
     Single,           ///< one triangle an issue: a pair takes two
     DualIndependent,  ///< two complete testers: a pair is one issue
-    DualShared,       ///< common-edge arithmetic and one depth unit shared: a folded pair that is pierced twice replays
+    DualShared,  ///< common-edge arithmetic and one depth unit shared: a folded pair that is pierced twice
+                 ///< replays
 };
 
-/// Every hardware number of the machine. Meaning, unit, range, default and the default's source of each field are in
-/// one table (config_keys()); names below equal its keys.
+/// Every hardware number of the machine. Meaning, unit, range and the default's source of each field are in
+/// one table (config_keys(), sim/config_keys.cpp); the names below are its keys.
 struct Config {
     std::uint32_t clock_mhz = 1000;
     std::uint32_t watchdog_cycles = 1'000'000;
@@ -62,12 +63,12 @@ struct Config {
 
     struct Dram {
         std::uint32_t channels = 4;
-        std::uint32_t banks = 16;           ///< a channel
-        std::uint32_t row_bytes = 2048;     ///< a bank
-        std::uint32_t queue_entries = 32;   ///< a channel
-        std::uint32_t bytes_per_cycle = 16; ///< a channel, in core cycles
-        std::uint32_t t_rcd_cycles = 14;
-        std::uint32_t t_rp_cycles = 14;
+        std::uint32_t banks = 16;            ///< a channel
+        std::uint32_t row_bytes = 2048;      ///< a bank
+        std::uint32_t queue_entries = 32;    ///< a channel
+        std::uint32_t bytes_per_cycle = 16;  ///< a channel, in core cycles
+        std::uint32_t t_rcd_cycles = 15;
+        std::uint32_t t_rp_cycles = 15;
         std::uint32_t t_cas_cycles = 14;
         std::uint32_t latency_cycles = 60;  ///< controller and link, both ways together
     } dram;

@@ -19,9 +19,9 @@ class PushIf : public sc_core::sc_interface {
 };
 
 /// The only channel between units: registered and bounded, with one writer and one reader.
-/// A push is visible to the reader in the next cycle, and a pop frees its entry for the writer in the next cycle, so
-/// the order in which units are ticked cannot matter. There is no commit step: both ends compare cycle stamps.
-/// Full rate needs depth >= 2.
+/// A push is visible to the reader in the next cycle, and a pop frees its entry for the writer in the next
+/// cycle, so the order in which units are ticked cannot matter. There is no commit step: both ends compare
+/// cycle stamps. Full rate needs depth >= 2.
 template <class T>
 class Fifo final : public sc_core::sc_object, public PushIf<T> {
   public:
@@ -64,7 +64,9 @@ class Fifo final : public sc_core::sc_object, public PushIf<T> {
     [[nodiscard]] const char* kind() const override { return "rtu_fifo"; }
 
   private:
-    [[nodiscard]] std::size_t visible_tail(Cycle now) const { return last_push_ == now ? tail_at_start_ : tail_; }
+    [[nodiscard]] std::size_t visible_tail(Cycle now) const {
+        return last_push_ == now ? tail_at_start_ : tail_;
+    }
 
     std::vector<T> items_;
     std::size_t depth_;

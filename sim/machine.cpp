@@ -1,0 +1,167 @@
+#include "sim/machine.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "sim/dram.hpp"
+#include "sim/hit_sink.hpp"
+#include "sim/kernel.hpp"
+#include "sim/memory_boundary.hpp"
+#include "sim/memory_counters.hpp"
+#include "sim/ray_source.hpp"
+#include "sim/rtu.hpp"
+
+namespace rtu::sim {
+
+namespace {
+
+constexpr std::uint64_t page_bytes = 4096;
+
+std::uint64_t round_up(std::uint64_t value, std::uint64_t to) { return (value + to - 1) / to * to; }
+
+// Each RTU's stacks lie behind the image, a whole number of lines a slot.
+StackRegion stack_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
+    const std::uint64_t slot_bytes = round_up(
+        (model::stack_capacity(image) + spill_block_entries) * stack_entry_bytes, config.l1.line_bytes);
+    return {round_up(image.size_bytes(), page_bytes) + rtu * config.rtu.ray_slots * slot_bytes, slot_bytes};
+}
+
+template <class Counters, std::size_t N>
+std::vector<CounterValue> values(const std::array<CounterRow<Counters>, N>& rows, const Counters& counters) {
+    std::vector<CounterValue> result;
+    for (const auto& row : rows) result.push_back({row.name, row.unit, counters.*row.member});
+    return result;
+}
+
+// All RTUs, the memory that they share, and the two ends that rays come from and go to.
+class Machine {
+  public:
+    Machine(const Config& config, const model::MemoryImage& image, std::span<const model::Ray> rays,
+            model::RayKind kind, ClockMode mode)
+        : config_(config),
+          ray_count_(rays.size()),
+          domain_("domain", mode, config.watchdog_cycles),
+          source_("ray_source", domain_, std::uint32_t(rays.size()), config.host.rays_per_cycle,
+                  config.rtu.count),
+          sink_("hit_sink", domain_, std::uint32_t(rays.size()), config.rtu.count),
+          l2_("l2", domain_, config.l2, config.rtu.count, config.rtu.count, 0),
+          dram_("dram", domain_, config.dram, config.l2.line_bytes),
+          dram_requests_("dram_requests", dram_request_depth, domain_),
+          dram_replies_("dram_replies", config.l2.mshrs, domain_) {
+        for (std::uint32_t i = 0; i < config.rtu.count; ++i) {
+            add_rtu(i, {image, rays, kind, stack_region(config, image, i)},
+                    std::as_bytes(std::span(image.blocks)));
+        }
+        l2_.below_out(dram_requests_);
+        l2_.fills_in(dram_replies_);
+        dram_.requests_in(dram_requests_);
+        dram_.replies_out(dram_replies_);
+    }
+
+    MachineResult run(const SimulationProgress& progress) {
+        MachineResult result;
+        result.cycles = domain_.run([this] { return sink_.is_done(); },
+                                    [&] {
+                                        if (progress) progress(double(sink_.received()) / double(ray_count_));
+                                    });
+        collect(result);
+        check(result);
+        result.hits = sink_.take_hits();
+        return result;
+    }
+
+  private:
+    // An RTU, and its way to the L2 and back.
+    struct Node {
+        Node(const std::string& name, ClockDomain& domain, const Config& config, std::uint32_t index,
+             const RtuJob& job, std::span<const std::byte> image)
+            : rtu(name.c_str(), domain, config, index, job),
+              initiator((name + "_initiator").c_str()),
+              target((name + "_target").c_str(), image),
+              l2_requests((name + "_l2_requests").c_str(), config.l1.mshrs, domain) {}
+        Rtu rtu;
+        BoundaryInitiator initiator;
+        BoundaryTarget target;
+        Fifo<MemoryRequest> l2_requests;
+    };
+
+    void add_rtu(std::uint32_t index, const RtuJob& job, std::span<const std::byte> image) {
+        auto& node = *nodes_.emplace_back(
+            std::make_unique<Node>(fmt::format("rtu{}", index), domain_, config_, index, job, image));
+        source_.rays_out[index](node.rtu.rays_in);
+        sink_.hits_in[index](node.rtu.hits_out);
+        node.rtu.l1.below_out(node.initiator);
+        node.initiator.replies_out(node.rtu.fills_in);
+        node.target.requests_out(node.l2_requests);
+        l2_.requests_in[index](node.l2_requests);
+        l2_.replies_out[index](node.target);
+        connect(node.initiator, node.target);
+    }
+
+    void collect(MachineResult& result) const {
+        result.units.push_back({"ray_source", source_.cycle_account(), {}});
+        for (const auto& node : nodes_) {
+            const Rtu& rtu = node->rtu;
+            const std::string prefix = nodes_.size() > 1 ? std::string(rtu.name()) + "." : "";
+            result.units.push_back({prefix + "scheduler", rtu.scheduler.cycle_account(),
+                                    values(scheduler_counter_rows, rtu.scheduler.counters())});
+            result.units.push_back(
+                {prefix + "box", rtu.box.cycle_account(), values(box_counter_rows, rtu.box.counters())});
+            result.units.push_back(
+                {prefix + "pair", rtu.pair.cycle_account(), values(pair_counter_rows, rtu.pair.counters())});
+            result.memory.push_back(
+                {prefix + "l1", rtu.l1.cycle_account(), values(cache_counter_rows, rtu.l1.counters())});
+            result.counts += {rtu.box.counters().node_visits, rtu.box.counters().box_tests,
+                              rtu.pair.counters().pair_tests, rtu.pair.counters().triangle_tests};
+        }
+        result.units.push_back({"hit_sink", sink_.cycle_account(), {}});
+        result.memory.push_back({"l2", l2_.cycle_account(), values(cache_counter_rows, l2_.counters())});
+        result.memory.push_back({"dram", dram_.cycle_account(), values(dram_counter_rows, dram_.counters())});
+    }
+
+    void check(const MachineResult& result) const {
+        std::uint64_t finished = 0;
+        for (const auto& node : nodes_) {
+            node->rtu.check_drained();
+            finished += node->rtu.scheduler.counters().rays_finished;
+        }
+        RTU_CHECK(finished == ray_count_, "{} rays in, {} out", ray_count_, finished);
+        l2_.check_drained();
+        dram_.check_drained();
+        for (const auto* units : {&result.units, &result.memory}) {
+            for (const UnitResult& unit : *units) {
+                RTU_CHECK(unit.cycles.total() == result.cycles, "{}: {} cycles accounted for, {} simulated",
+                          unit.name, unit.cycles.total(), result.cycles);
+            }
+        }
+    }
+
+    static constexpr std::size_t dram_request_depth = 8;  // several L2 misses and write-backs a cycle
+
+    const Config& config_;
+    std::size_t ray_count_;
+    ClockDomain domain_;
+    RaySource source_;
+    HitSink sink_;
+    std::vector<std::unique_ptr<Node>> nodes_;
+    Cache l2_;
+    Dram dram_;
+    Fifo<MemoryRequest> dram_requests_;
+    Fifo<MemoryReply> dram_replies_;
+};
+
+}  // namespace
+
+MachineResult simulate(const Config& config, const model::MemoryImage& image,
+                       std::span<const model::Ray> rays, model::RayKind kind, ClockMode mode,
+                       const SimulationProgress& progress) {
+    RTU_CHECK(rays.size() < std::numeric_limits<std::uint32_t>::max(), "{} rays in one simulation",
+              rays.size());
+    if (rays.empty()) return {};
+    start_fresh_kernel();
+    return Machine(config, image, rays, kind, mode).run(progress);
+}
+
+}  // namespace rtu::sim

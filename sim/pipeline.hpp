@@ -8,12 +8,14 @@
 
 namespace rtu::sim {
 
-/// A fixed-latency pipeline: what enters in cycle c can leave from cycle c + latency on, in order. Readiness is a
-/// time stamp, so an item that cannot leave waits without cost. Bounded by `depth` items; the unit checks `is_full`.
+/// A fixed-latency pipeline: what enters in cycle c can leave from cycle c + latency on, in order. Readiness
+/// is a time stamp, so an item that cannot leave waits without cost. Bounded by `depth` items; the unit
+/// checks `is_full`.
 template <class T>
 class Pipeline {
   public:
-    Pipeline(std::uint32_t latency_cycles, std::size_t depth) : latency_cycles_(latency_cycles), depth_(depth) {
+    Pipeline(std::uint32_t latency_cycles, std::size_t depth)
+        : latency_cycles_(latency_cycles), depth_(depth) {
         std::size_t size = 1;
         while (size < depth) size *= 2;
         items_.resize(size);

@@ -1,0 +1,152 @@
+#include "sim/ray_scheduler.hpp"
+
+#include <algorithm>
+
+#include "model/traversal.hpp"
+
+namespace rtu::sim {
+
+RayScheduler::RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu& config,
+                           const model::MemoryImage& image, std::span<const model::Ray> rays,
+                           model::RayKind kind, RaySlots& slots, StackRegion region)
+    : ClockedUnit(name, domain),
+      config_(config),
+      spill_block_(std::min(spill_block_entries, config.stack_entries)),
+      node_bytes_(model::MemoryImage::node_bytes(image.width)),
+      image_(image),
+      rays_(rays),
+      kind_(kind),
+      slots_(slots),
+      region_(region) {
+    for (auto slot = std::uint32_t(slots.size()); slot-- > 0;) free_slots_.push_back(slot);
+}
+
+Cycle RayScheduler::next_event(Cycle now) const { return queued_.empty() ? no_cycle : now + 1; }
+
+std::string RayScheduler::describe() const {
+    return fmt::format("{} of {} slots in use, {} requests queued, {} box and {} pair results waiting",
+                       slots_.size() - free_slots_.size(), slots_.size(), queued_.size(),
+                       box_results_in->size(), pair_results_in->size());
+}
+
+bool RayScheduler::has_work(Cycle now) const {
+    return !queued_.empty() || box_results_in->can_pop(now) || pair_results_in->can_pop(now) ||
+           stack_blocks_in->can_pop(now) || (rays_in->can_pop(now) && !free_slots_.empty());
+}
+
+Activity RayScheduler::tick(Cycle now) {
+    const bool has_retired = retire(now);
+    const bool has_issued = issue(now);
+    const bool has_accepted = accept(now);
+    if (has_retired || has_issued || has_accepted) return Activity::Busy;
+    return has_work(now) ? Activity::Blocked : Activity::Waiting;
+}
+
+bool RayScheduler::retire(Cycle now) {
+    std::uint32_t taken = 0;
+    // The sources are asked in turn; the one that is asked first changes every cycle, so that none can
+    // starve.
+    for (std::uint32_t i = 0; i < reply_channel_count; ++i) {
+        const std::uint32_t source = (first_source_ + i) % reply_channel_count;
+        while (taken < config_.results_per_cycle && hits_out->can_push(now)) {
+            if (source == 0 && pair_results_in->can_pop(now)) {
+                advance(pair_results_in->pop(now).slot, now);
+            } else if (source == 1 && box_results_in->can_pop(now)) {
+                advance(box_results_in->pop(now).slot, now);
+            } else if (source == 2 && stack_blocks_in->can_pop(now)) {
+                const std::uint32_t slot = stack_blocks_in->pop(now).tag;
+                slots_[slot].spilled -= spill_block_;
+                counters_.reloaded_entries += spill_block_;
+                advance(slot, now);
+            } else {
+                break;
+            }
+            ++taken;
+        }
+    }
+    if (taken > 0) first_source_ = (first_source_ + 1) % reply_channel_count;
+    return taken > 0;
+}
+
+// Decides what a ray does next, once its last request has been worked on.
+void RayScheduler::advance(std::uint32_t slot, Cycle now) {
+    RaySlot& ray = slots_[slot];
+    if (model::is_satisfied(ray.traversal)) {
+        finish(slot, now);
+    } else if (model::pop(ray.traversal, ray.spilled)) {
+        while (ray.traversal.stack.size() - ray.spilled > config_.stack_entries) queue_spill(slot);
+        queue_fetch(slot);
+    } else if (ray.spilled > 0) {
+        queue_reload(slot);
+    } else {
+        finish(slot, now);
+    }
+}
+
+void RayScheduler::finish(std::uint32_t slot, Cycle now) {
+    const RaySlot& ray = slots_[slot];
+    hits_out->push(now, {ray.ray_index, ray.traversal.has_hit, ray.traversal.best});
+    ++counters_.rays_finished;
+    counters_.slot_cycles += now - ray.accepted_cycle;
+    free_slots_.push_back(slot);
+}
+
+void RayScheduler::queue_fetch(std::uint32_t slot) {
+    const model::NodeRef ref = slots_[slot].traversal.current.ref;
+    const std::uint64_t bytes =
+        ref.is_leaf() ? std::uint64_t(ref.pair_count()) * model::image_block_bytes : node_bytes_;
+    const ReplyTo target = ref.is_leaf() ? ReplyTo::PairUnit : ReplyTo::BoxUnit;
+    queued_.push_back({.address = ref.address(),
+                       .size_bytes = std::uint32_t(bytes),
+                       .tag = slot,
+                       .source = std::uint8_t(target)});
+    ++(ref.is_leaf() ? counters_.leaf_fetches : counters_.node_fetches);
+}
+
+void RayScheduler::queue_spill(std::uint32_t slot) {
+    RaySlot& ray = slots_[slot];
+    queued_.push_back(stack_request(slot, ray.spilled, true));
+    ray.spilled += spill_block_;
+    counters_.spilled_entries += spill_block_;
+}
+
+void RayScheduler::queue_reload(std::uint32_t slot) {
+    queued_.push_back(stack_request(slot, slots_[slot].spilled - spill_block_, false));
+}
+
+MemoryRequest RayScheduler::stack_request(std::uint32_t slot, std::size_t first_entry, bool is_write) const {
+    return {.address = region_.base_address + slot * region_.slot_bytes + first_entry * stack_entry_bytes,
+            .size_bytes = spill_block_ * stack_entry_bytes,
+            .tag = slot,
+            .source = std::uint8_t(ReplyTo::Scheduler),
+            .is_write = is_write};
+}
+
+bool RayScheduler::issue(Cycle now) {
+    std::uint32_t sent = 0;
+    while (sent < config_.fetches_per_cycle && !queued_.empty() && requests_out->can_push(now)) {
+        requests_out->push(now, queued_.front());
+        queued_.pop_front();
+        ++sent;
+    }
+    return sent > 0;
+}
+
+bool RayScheduler::accept(Cycle now) {
+    if (free_slots_.empty() || !rays_in->can_pop(now) || !hits_out->can_push(now)) return false;
+    const std::uint32_t slot = free_slots_.back();
+    free_slots_.pop_back();
+    RaySlot& ray = slots_[slot];
+    ray.ray_index = rays_in->pop(now).ray_index;
+    ray.spilled = 0;
+    ray.accepted_cycle = now;
+    ++counters_.rays_accepted;
+    if (model::start(ray.traversal, image_, rays_[ray.ray_index], kind_)) {
+        queue_fetch(slot);
+    } else {
+        finish(slot, now);
+    }
+    return true;
+}
+
+}  // namespace rtu::sim

@@ -1,0 +1,201 @@
+#include "sim/config_keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "model/error.hpp"
+#include "model/one_line.hpp"
+
+namespace rtu::sim {
+namespace {
+
+using Form = ConfigKey::Form;
+using Field = ConfigKey::Field;
+
+const ConfigKey rows[] = {
+    {"clock_mhz", "MHz", "the one clock of the machine; turns cycles into MRPS", 1, 10'000U, Form::Any,
+     "assumed: a round figure; the TRaX preset of [arches] has it too",
+     [](Config& c) -> Field { return &c.clock_mhz; }},
+    {"watchdog_cycles", "cycles", "without any progress after which a run fails", 100'000U, 4'000'000'000U,
+     Form::Any, "assumed: far beyond the sum of all latencies",
+     [](Config& c) -> Field { return &c.watchdog_cycles; }},
+    {"host.rays_per_cycle", "rays/cycle", "rays that the host offers to the machine", 1, 64, Form::Any,
+     "[arches] an RT core accepts 1 ray a clock", [](Config& c) -> Field { return &c.host.rays_per_cycle; }},
+    {"bvh.width", "children", "children of an inner node", 2, 8, Form::Even,
+     "[rayflex] and [prism] test 4 boxes a node", [](Config& c) -> Field { return &c.bvh.width; }},
+    {"bvh.max_leaf_pairs", "pairs", "triangle pairs in a leaf", 1, 8, Form::Any,
+     "[gen-rt] a quad leaf holds 1 pair", [](Config& c) -> Field { return &c.bvh.max_leaf_pairs; }},
+    {"rtu.count", "RTUs", "ray-tracing units that share L2 and DRAM", 1, 64, Form::Any,
+     "assumed: one unit is what is studied", [](Config& c) -> Field { return &c.rtu.count; }},
+    {"rtu.ray_slots", "rays", "rays in flight in an RTU", 1, 4096, Form::Any,
+     "[vulkan-sim] 4 warps of 32 rays in an RT unit; [arches] 64 or 128",
+     [](Config& c) -> Field { return &c.rtu.ray_slots; }},
+    {"rtu.stack_entries", "entries", "traversal stack of a ray on chip; deeper entries spill to memory", 1,
+     256, Form::Any, "[prism] short stack of 16; [radv] 16 entries on chip",
+     [](Config& c) -> Field { return &c.rtu.stack_entries; }},
+    {"rtu.results_per_cycle", "results/cycle", "unit results that the ray scheduler takes", 1, 64, Form::Any,
+     "assumed: one from the box unit and one from the pair unit",
+     [](Config& c) -> Field { return &c.rtu.results_per_cycle; }},
+    {"rtu.fetches_per_cycle", "requests/cycle", "requests that the ray scheduler sends to its L1", 1, 64,
+     Form::Any, "assumed: keeps the box unit and the pair unit fed together",
+     [](Config& c) -> Field { return &c.rtu.fetches_per_cycle; }},
+    {"rtu.box.boxes_per_cycle", "boxes/cycle", "child boxes that the box unit tests", 1, 64, Form::Any,
+     "[rayflex] 4 ray-box tests a clock", [](Config& c) -> Field { return &c.rtu.box.boxes_per_cycle; }},
+    {"rtu.box.latency_cycles", "cycles", "issue to result of a box test", 1, 1000, Form::Any,
+     "[rayflex] pipeline of 12 stages", [](Config& c) -> Field { return &c.rtu.box.latency_cycles; }},
+    {"rtu.pair.mode", "", "how a pair of triangles is tested", 0, 0, Form::Any,
+     "assumed: shared common-edge arithmetic is what is studied",
+     [](Config& c) -> Field { return &c.rtu.pair.mode; }},
+    {"rtu.pair.testers", "testers", "pair testers side by side", 1, 64, Form::Any,
+     "[arches], [prism] and [rtcore-systemc]: 1 triangle tester",
+     [](Config& c) -> Field { return &c.rtu.pair.testers; }},
+    {"rtu.pair.ii_cycles", "cycles", "initiation interval of a pair tester", 1, 1000, Form::Any,
+     "[prism] the triangle unit takes one triangle a clock",
+     [](Config& c) -> Field { return &c.rtu.pair.ii_cycles; }},
+    {"rtu.pair.latency_cycles", "cycles", "issue to result of a pair test", 1, 1000, Form::Any,
+     "[arches] triangle pipeline of 22 steps", [](Config& c) -> Field { return &c.rtu.pair.latency_cycles; }},
+    {"rtu.pair.replay_cycles", "cycles",
+     "extra occupation of dual_shared when a ray pierces both triangles of a folded pair", 0, 1000, Form::Any,
+     "assumed: the one depth unit is used a second time",
+     [](Config& c) -> Field { return &c.rtu.pair.replay_cycles; }},
+    {"l1.size_bytes", "bytes", "capacity of the node and leaf cache of an RTU", 1024, 268'435'456U, Form::Any,
+     "[vulkan-sim] RT cache of 64 KiB; [arches] 64 KiB", [](Config& c) -> Field { return &c.l1.size_bytes; }},
+    {"l1.line_bytes", "bytes", "cache line", 32, 1024, Form::PowerOfTwo, "[vulkan-sim] 128",
+     [](Config& c) -> Field { return &c.l1.line_bytes; }},
+    {"l1.sector_bytes", "bytes", "part of a line that is fetched on its own", 16, 1024, Form::PowerOfTwo,
+     "[vulkan-sim] 32, sectored", [](Config& c) -> Field { return &c.l1.sector_bytes; }},
+    {"l1.ways", "ways", "associativity", 1, 512, Form::Any, "[vulkan-sim] 16 ways",
+     [](Config& c) -> Field { return &c.l1.ways; }},
+    {"l1.banks", "banks", "each serves one line a cycle", 1, 64, Form::PowerOfTwo, "[vulkan-sim] 4 banks",
+     [](Config& c) -> Field { return &c.l1.banks; }},
+    {"l1.mshrs", "entries", "outstanding line misses", 1, 4096, Form::Any, "[vulkan-sim] 64 in an RT unit",
+     [](Config& c) -> Field { return &c.l1.mshrs; }},
+    {"l1.targets_per_mshr", "requests", "requests that wait on one outstanding line", 1, 4096, Form::Any,
+     "assumed: between the 8 of the data cache and the 256 of the RT cache in [vulkan-sim]",
+     [](Config& c) -> Field { return &c.l1.targets_per_mshr; }},
+    {"l1.latency_cycles", "cycles", "request seen to reply sent, for a hit", 1, 10'000U, Form::Any,
+     "[vulkan-sim] and [arches] 20", [](Config& c) -> Field { return &c.l1.latency_cycles; }},
+    {"l2.size_bytes", "bytes", "capacity of the cache that all RTUs share", 1024, 268'435'456U, Form::Any,
+     "[arches] 8 x 512 KiB", [](Config& c) -> Field { return &c.l2.size_bytes; }},
+    {"l2.line_bytes", "bytes", "cache line", 32, 1024, Form::PowerOfTwo, "[vulkan-sim] 128",
+     [](Config& c) -> Field { return &c.l2.line_bytes; }},
+    {"l2.sector_bytes", "bytes", "part of a line that is fetched on its own", 16, 1024, Form::PowerOfTwo,
+     "[vulkan-sim] 32, sectored", [](Config& c) -> Field { return &c.l2.sector_bytes; }},
+    {"l2.ways", "ways", "associativity", 1, 512, Form::Any, "[vulkan-sim] and [arches] 16 ways",
+     [](Config& c) -> Field { return &c.l2.ways; }},
+    {"l2.banks", "banks", "each serves one line a cycle", 1, 64, Form::PowerOfTwo,
+     "[arches] 4 slices a partition", [](Config& c) -> Field { return &c.l2.banks; }},
+    {"l2.mshrs", "entries", "outstanding line misses", 1, 4096, Form::Any,
+     "assumed: below the 192 of a partition in [vulkan-sim] and [arches]",
+     [](Config& c) -> Field { return &c.l2.mshrs; }},
+    {"l2.targets_per_mshr", "requests", "requests that wait on one outstanding line", 1, 4096, Form::Any,
+     "assumed: as in L1", [](Config& c) -> Field { return &c.l2.targets_per_mshr; }},
+    {"l2.latency_cycles", "cycles", "request seen to reply sent, for a hit", 1, 10'000U, Form::Any,
+     "[arches] 160 cycles at 1515 MHz are 106 ns, rounded",
+     [](Config& c) -> Field { return &c.l2.latency_cycles; }},
+    {"dram.channels", "channels", "independent channels, interleaved by address", 1, 64, Form::PowerOfTwo,
+     "assumed: a mobile memory system", [](Config& c) -> Field { return &c.dram.channels; }},
+    {"dram.banks", "banks", "of a channel", 1, 64, Form::PowerOfTwo, "[vulkan-sim] and [ramulator2] 16",
+     [](Config& c) -> Field { return &c.dram.banks; }},
+    {"dram.row_bytes", "bytes", "of a bank, open at a time", 256, 65'536U, Form::PowerOfTwo,
+     "[vulkan-sim] address map: 2 KiB a row", [](Config& c) -> Field { return &c.dram.row_bytes; }},
+    {"dram.queue_entries", "requests", "waiting at a channel", 1, 1024, Form::Any,
+     "[ramulator2] read buffer of 32", [](Config& c) -> Field { return &c.dram.queue_entries; }},
+    {"dram.bytes_per_cycle", "bytes/cycle", "bandwidth of a channel, in clocks of the machine", 1, 1024,
+     Form::Any, "assumed: a 16-bit LPDDR5X-8533 channel moves 17 GB/s",
+     [](Config& c) -> Field { return &c.dram.bytes_per_cycle; }},
+    {"dram.t_rcd_cycles", "cycles", "row activation to column access", 0, 1000, Form::Any,
+     "[ramulator2] GDDR6 nRCDRD 26 x 0.57 ns", [](Config& c) -> Field { return &c.dram.t_rcd_cycles; }},
+    {"dram.t_rp_cycles", "cycles", "precharge to activation", 0, 1000, Form::Any,
+     "[ramulator2] GDDR6 nRP 26 x 0.57 ns", [](Config& c) -> Field { return &c.dram.t_rp_cycles; }},
+    {"dram.t_cas_cycles", "cycles", "column access to first data", 1, 1000, Form::Any,
+     "[ramulator2] GDDR6 nCL 24 x 0.57 ns", [](Config& c) -> Field { return &c.dram.t_cas_cycles; }},
+    {"dram.latency_cycles", "cycles", "controller and link, both ways together", 1, 10'000U, Form::Any,
+     "[arches] 92 cycles at 1515 MHz are 61 ns, rounded",
+     [](Config& c) -> Field { return &c.dram.latency_cycles; }},
+};
+
+constexpr std::array<std::string_view, 3> mode_names{"single", "dual_independent", "dual_shared"};
+
+/// Insertions, deletions and substitutions between two words (Levenshtein's distance).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+        }
+    }
+    return row[b.size()];
+}
+
+/// The key that was probably meant: it ends in the word, or is a few typing errors away.
+std::optional<std::string_view> nearest_key(std::string_view name) {
+    constexpr std::size_t longest_worth_comparing = 64;
+    if (name.empty() || name.size() > longest_worth_comparing) return std::nullopt;
+    std::optional<std::string_view> nearest;
+    std::size_t nearest_distance = 2 + name.size() / 4;
+    for (const ConfigKey& key : config_keys()) {
+        const std::string_view last_word = key.name.substr(key.name.rfind('.') + 1);
+        const std::size_t distance =
+            name == last_word ? 0
+                              : std::min(edit_distance(name, key.name), edit_distance(name, last_word) + 1);
+        if (distance < nearest_distance) {
+            nearest = key.name;
+            nearest_distance = distance;
+        }
+    }
+    return nearest;
+}
+
+std::string quoted_list(std::span<const std::string_view> words) {
+    std::string text(words.front());
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        text += i + 1 == words.size() ? " or " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+}  // namespace
+
+std::span<const ConfigKey> config_keys() { return rows; }
+
+std::span<const std::string_view> pair_mode_names() { return mode_names; }
+
+std::size_t config_key_index(std::string_view name, std::string_view place) {
+    const auto row = std::ranges::find(rows, name, &ConfigKey::name);
+    if (row != std::end(rows)) return std::size_t(row - std::begin(rows));
+    const std::optional<std::string_view> nearest = nearest_key(name);
+    throw Error("{}: expected a configuration key, got '{}'{}", place, model::one_line(name),
+                nearest ? fmt::format("; did you mean '{}'?", *nearest) : std::string());
+}
+
+ConfigValue config_value(const Config& config, const ConfigKey& key) {
+    Config copy = config;  // the table's accessors give places to write to
+    const Field field = key.field(copy);
+    if (const auto* number = std::get_if<std::uint32_t*>(&field)) return **number;
+    return mode_names[std::size_t(*std::get<PairMode*>(field))];
+}
+
+std::string config_value_text(const Config& config, const ConfigKey& key) {
+    return std::visit([](const auto& value) { return fmt::format("{}", value); }, config_value(config, key));
+}
+
+std::string describe_range(const ConfigKey& key) {
+    Config any;
+    if (std::holds_alternative<PairMode*>(key.field(any))) return quoted_list(mode_names);
+    const std::string_view kind = key.form == Form::Even         ? "an even number"
+                                  : key.form == Form::PowerOfTwo ? "a power of two"
+                                                                 : "a number";
+    return fmt::format("{} from {} to {}", kind, key.min, key.max);
+}
+
+}  // namespace rtu::sim

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/memory_image.hpp"
+#include "model/ray.hpp"
+#include "model/traversal.hpp"
+#include "sim/clock_domain.hpp"
+#include "sim/config.hpp"
+
+namespace rtu::sim {
+
+/// One counter's value, with its unit of measure.
+struct CounterValue {
+    std::string_view name;
+    std::string_view unit;
+    std::uint64_t value = 0;
+};
+
+/// Where one unit's cycles went and what it counted. With several RTUs the names start with "rtuN.".
+struct UnitResult {
+    std::string name;
+    CycleAccount cycles;
+    std::vector<CounterValue> counters;
+};
+
+/// What one simulation gives.
+struct MachineResult {
+    Cycle cycles = 0;                             ///< from the first ray accepted to the last hit returned
+    std::vector<std::optional<model::Hit>> hits;  ///< [ray_count]
+    model::TraversalCounts counts;                ///< over all RTUs
+    std::vector<UnitResult> units;                ///< ray source, each RTU's units, hit sink
+    std::vector<UnitResult> memory;               ///< each RTU's L1, the L2, the DRAM
+};
+
+/// Told the share of the rays that have returned, now and then.
+using SimulationProgress = std::function<void(double share)>;
+
+/// Builds the machine, runs all rays through it, from cold caches, and checks that nothing was lost: rays in
+/// = rays out, fetches = tests, every unit's cycles sum to `cycles`, every channel and pipeline empty. Throws
+/// std::logic_error when one of these is broken or the machine stops making progress. `config` must be valid.
+/// At most 2^32 - 1 rays. Starts a new SystemC kernel: simulations of one process run one after another.
+[[nodiscard]] MachineResult simulate(const Config& config, const model::MemoryImage& image,
+                                     std::span<const model::Ray> rays, model::RayKind kind,
+                                     ClockMode mode = ClockMode::Fast,
+                                     const SimulationProgress& progress = {});
+
+}  // namespace rtu::sim

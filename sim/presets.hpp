@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rtu::sim {
+
+/// A preset as it was embedded at build time from sim/presets/NAME.toml.
+struct EmbeddedPreset {
+    std::string_view name;
+    std::string_view toml;
+};
+
+/// Every embedded preset; `default` first, then by name. Generated from sim/presets by CMake.
+[[nodiscard]] std::span<const EmbeddedPreset> embedded_presets();
+
+/// The names that load_config() accepts, in the same order.
+[[nodiscard]] std::vector<std::string> preset_names();
+
+/// The preset of that name; throws Error listing the known ones.
+[[nodiscard]] const EmbeddedPreset& find_preset(std::string_view name);
+
+}  // namespace rtu::sim

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/memory_image.hpp"
+#include "model/ray.hpp"
+#include "sim/clocked_unit.hpp"
+#include "sim/config.hpp"
+#include "sim/counters.hpp"
+#include "sim/fifo.hpp"
+#include "sim/memory_message.hpp"
+#include "sim/ray_slots.hpp"
+
+namespace rtu::sim {
+
+/// Which unit an L1 reply goes to: MemoryRequest::source of the scheduler's requests.
+enum class ReplyTo : std::uint8_t { BoxUnit, PairUnit, Scheduler };
+inline constexpr std::uint32_t reply_channel_count = 3;
+
+/// Stack entries written or read back at once; four of 8 bytes fill a 32-byte sector.
+inline constexpr std::uint32_t stack_entry_bytes = 8;
+inline constexpr std::uint32_t spill_block_entries = 4;
+
+/// Where an RTU's stacks spill to: one region a slot, beyond the image.
+struct StackRegion {
+    std::uint64_t base_address = 0;
+    std::uint64_t slot_bytes = 0;
+};
+
+/// Gives rays their slots, decides what each asks memory for next, and hands finished rays back.
+///
+/// A cycle, from the output end: up to `results_per_cycle` results (of the pair unit, then the box unit, then
+/// stack blocks read back; the first served alternates) advance their rays: pop the stack, skipping entries
+/// behind the best hit (by comparison of all entries at once: no cycle each), and queue the next request, or
+/// hand the hit out; then up to `fetches_per_cycle` requests leave in the order in which they were queued;
+/// then one new ray is accepted. When a stack outgrows `stack_entries`, its lowest block is written to memory
+/// ahead of the ray's next fetch; when the entries on chip run out, the last block written is read back.
+class RayScheduler final : public ClockedUnit {
+  public:
+    RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu& config,
+                 const model::MemoryImage& image, std::span<const model::Ray> rays, model::RayKind kind,
+                 RaySlots& slots, StackRegion region);
+
+    sc_core::sc_port<Fifo<RayMessage>> rays_in{"rays_in"};
+    sc_core::sc_port<Fifo<SlotToken>> box_results_in{"box_results_in"};
+    sc_core::sc_port<Fifo<SlotToken>> pair_results_in{"pair_results_in"};
+    sc_core::sc_port<Fifo<MemoryReply>> stack_blocks_in{"stack_blocks_in"};  ///< tag = slot
+    sc_core::sc_port<Fifo<MemoryRequest>> requests_out{"requests_out"};
+    sc_core::sc_port<Fifo<HitMessage>> hits_out{"hits_out"};
+
+    [[nodiscard]] const SchedulerCounters& counters() const { return counters_; }
+    [[nodiscard]] Cycle next_event(Cycle now) const override;
+    [[nodiscard]] std::string describe() const override;
+
+  protected:
+    Activity tick(Cycle now) override;
+
+  private:
+    bool retire(Cycle now);
+    bool issue(Cycle now);
+    bool accept(Cycle now);
+    void advance(std::uint32_t slot, Cycle now);
+    void finish(std::uint32_t slot, Cycle now);
+    void queue_fetch(std::uint32_t slot);
+    void queue_spill(std::uint32_t slot);
+    void queue_reload(std::uint32_t slot);
+    [[nodiscard]] MemoryRequest stack_request(std::uint32_t slot, std::size_t first_entry,
+                                              bool is_write) const;
+    [[nodiscard]] bool has_work(Cycle now) const;
+
+    Config::Rtu config_;
+    std::uint32_t spill_block_;
+    std::uint64_t node_bytes_;
+    const model::MemoryImage& image_;
+    std::span<const model::Ray> rays_;
+    model::RayKind kind_;
+    RaySlots& slots_;
+    StackRegion region_;
+    std::vector<std::uint32_t> free_slots_;
+    std::deque<MemoryRequest> queued_;  // a fetch a slot at most, and its spills
+    std::uint32_t first_source_ = 0;
+    SchedulerCounters counters_;
+};
+
+}  // namespace rtu::sim

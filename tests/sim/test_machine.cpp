@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "machine_fixture.hpp"
+#include "model/error.hpp"
+#include "sim/machine.hpp"
+
+namespace rtu::sim {
+namespace {
+
+using model::RayKind;
+
+struct Variant {
+    const char* name;
+    void (*change)(Config&);
+};
+
+void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
+
+const Variant variants[] = {
+    {"default", [](Config&) {}},
+    {"tiny", [](Config& c) { c = test::tiny_machine(); }},
+    {"one_slot", [](Config& c) { c.rtu.ray_slots = 1; }},
+    {"three_rtus", [](Config& c) { c.rtu.count = 3, c.host.rays_per_cycle = 2; }},
+    {"one_lane", [](Config& c) { c.rtu.box.boxes_per_cycle = 1; }},
+    {"twelve_lanes", [](Config& c) { c.rtu.box.boxes_per_cycle = 12; }},
+    {"single", [](Config& c) { c.rtu.pair.mode = PairMode::Single; }},
+    {"dual_independent", [](Config& c) { c.rtu.pair.mode = PairMode::DualIndependent; }},
+    {"three_slow_testers", [](Config& c) { c.rtu.pair.testers = 3, c.rtu.pair.ii_cycles = 5; }},
+    {"stack_of_one", [](Config& c) { c.rtu.stack_entries = 1; }},
+    {"narrow_scheduler", [](Config& c) { c.rtu.results_per_cycle = c.rtu.fetches_per_cycle = 1; }},
+};
+
+std::uint64_t counter(const std::vector<UnitResult>& units, std::string_view unit, std::string_view name) {
+    for (const UnitResult& u : units) {
+        if (u.name != unit) continue;
+        for (const CounterValue& c : u.counters) {
+            if (c.name == name) return c.value;
+        }
+    }
+    ADD_FAILURE() << "no counter " << unit << "." << name;
+    return 0;
+}
+
+class Machine : public testing::TestWithParam<Variant> {
+  protected:
+    Machine() { GetParam().change(config_); }
+    Config config_;
+};
+
+TEST_P(Machine, GivesTheReferencesHitsAndCounts) {
+    for (const model::BvhOptions options : {model::BvhOptions{4, 1}, {2, 1}, {8, 1}, {4, 3}}) {
+        const auto mesh = test::triangle_soup(800, 3, 0.15F);
+        const auto image = test::image_of(mesh, options);
+        const auto rays = test::rays_into_unit_cube(400, 4);
+        for (const RayKind kind : {RayKind::ClosestHit, RayKind::AnyHit}) {
+            const MachineResult result = simulate(config_, image, rays, kind);
+            model::TraversalCounts counts;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                ASSERT_EQ(result.hits[i], model::trace(image, rays[i], kind, &counts)) << "ray " << i;
+            }
+            EXPECT_EQ(result.counts, counts);
+        }
+    }
+}
+
+TEST_P(Machine, GivesTheSameCyclesAndCountersInBothClockModes) {
+    const auto image = test::image_of(test::triangle_soup(300, 5, 0.2F));
+    const auto rays = test::rays_into_unit_cube(150, 6);
+    const MachineResult fast = simulate(config_, image, rays, RayKind::ClosestHit, ClockMode::Fast);
+    const MachineResult verify = simulate(config_, image, rays, RayKind::ClosestHit, ClockMode::Verify);
+    EXPECT_EQ(fast.cycles, verify.cycles);
+    EXPECT_EQ(fast.hits, verify.hits);
+    const auto expect_equal = [](const std::vector<UnitResult>& a, const std::vector<UnitResult>& b) {
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            EXPECT_EQ(a[i].cycles, b[i].cycles) << a[i].name;
+            for (std::size_t k = 0; k < a[i].counters.size(); ++k) {
+                EXPECT_EQ(a[i].counters[k].value, b[i].counters[k].value)
+                    << a[i].name << " " << a[i].counters[k].name;
+            }
+        }
+    };
+    expect_equal(fast.units, verify.units);
+    expect_equal(fast.memory, verify.memory);
+}
+
+TEST_P(Machine, IsNeverFasterThanItsUnitsAllow) {
+    const auto image = test::image_of(test::triangle_soup(800, 3, 0.15F));
+    const auto rays = test::rays_into_unit_cube(500, 7);
+    const MachineResult result = simulate(config_, image, rays, RayKind::ClosestHit);
+    const std::uint64_t rtus = config_.rtu.count;
+    EXPECT_GE(result.cycles * config_.host.rays_per_cycle, rays.size());
+    EXPECT_GE(result.cycles * rtus * config_.rtu.box.boxes_per_cycle, result.counts.box_tests);
+    const std::uint64_t issues =
+        config_.rtu.pair.mode == PairMode::Single ? result.counts.triangle_tests : result.counts.pair_tests;
+    EXPECT_GE(result.cycles * rtus * config_.rtu.pair.testers, issues * config_.rtu.pair.ii_cycles);
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, Machine, testing::ValuesIn(variants),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// One slot, everything cached: each step costs the latencies of its two units and one register for each of
+// three channels.
+TEST(MachineLatency, OfOneRayIsTheSumOfItsSteps) {
+    Config config;
+    config.rtu.ray_slots = 1;
+    const auto image = test::image_of(test::triangle_soup(64, 9, 0.3F));
+    for (const model::Ray& ray : test::rays_into_unit_cube(20, 10)) {
+        model::TraversalCounts counts;
+        (void)model::trace(image, ray, RayKind::ClosestHit, &counts);
+        const auto cycles = [&](std::size_t copies) {
+            return simulate(config, image, std::vector(copies, ray), RayKind::ClosestHit).cycles;
+        };
+        // The third ray finds in the L1 what the first two have brought there.
+        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles + 3;
+        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles + 3;
+        EXPECT_EQ(cycles(3) - cycles(2), 1 + counts.node_visits * node_step + counts.pair_tests * leaf_step);
+    }
+}
+
+// Rays that test one node each and hit nothing: one a cycle enters, and one a cycle leaves.
+TEST(MachineThroughput, IsOneRayACycleAtItsPeak) {
+    const auto image = test::image_of(test::triangle_soup(2, 11, 0.1F));
+    constexpr std::size_t count = 20'000;
+    const std::vector<model::Ray> rays(count, {{5, 5, 5}, 0, {1, 0, 0}, 1e30F});
+    const MachineResult result = simulate({}, image, rays, RayKind::ClosestHit);
+    EXPECT_EQ(result.counts.node_visits, count);
+    EXPECT_GE(result.cycles, count);
+    EXPECT_LE(result.cycles, count + 1'000);  // filling and draining: one DRAM access and one ray's latency
+}
+
+TEST(MachineThroughput, OfABoxBoundMachineIsThatOfItsLanes) {
+    Config config;
+    config.rtu.box.boxes_per_cycle = 1;
+    const auto image = test::image_of(test::triangle_soup(800, 3, 0.15F));
+    const auto rays = test::rays_into_unit_cube(4'000, 12);
+    const MachineResult result = simulate(config, image, rays, RayKind::ClosestHit);
+    EXPECT_LE(double(result.cycles), 1.02 * double(result.counts.box_tests));
+}
+
+TEST(MachineModes, OrderAsTheirHardwareDoes) {
+    Config config;
+    config.rtu.box.boxes_per_cycle = 32;  // so that the pair unit is the limit
+    config.rtu.pair.ii_cycles = 8;
+    const auto image = test::image_of(test::closed_sphere(24, {0.5F, 0.5F, 0.5F}, 0.4F));
+    const auto rays = test::rays_into_unit_cube(2'000, 13);
+    const auto cycles = [&](PairMode mode) {
+        config.rtu.pair.mode = mode;
+        return simulate(config, image, rays, RayKind::ClosestHit).cycles;
+    };
+    const Cycle single = cycles(PairMode::Single), independent = cycles(PairMode::DualIndependent),
+                shared = cycles(PairMode::DualShared);
+    EXPECT_GT(single, independent + independent / 2);
+    EXPECT_GE(shared, independent);
+    EXPECT_LT(shared, independent + independent / 10);
+}
+
+TEST(MachineStack, SpillsAndReloadsWhatItCannotHold) {
+    Config config;
+    const auto image = test::image_of(test::triangle_soup(2'000, 14, 0.3F));
+    const auto rays = test::rays_into_unit_cube(300, 15);
+    config.rtu.stack_entries = 64;
+    const MachineResult large = simulate(config, image, rays, RayKind::ClosestHit);
+    config.rtu.stack_entries = 2;
+    const MachineResult small = simulate(config, image, rays, RayKind::ClosestHit);
+    EXPECT_EQ(counter(large.units, "scheduler", "spilled_entries"), 0U);
+    EXPECT_GT(counter(small.units, "scheduler", "spilled_entries"), 1'000U);
+    EXPECT_EQ(counter(small.units, "scheduler", "spilled_entries"),
+              counter(small.units, "scheduler", "reloaded_entries"));
+    EXPECT_GT(small.cycles, large.cycles);
+    EXPECT_EQ(small.hits, large.hits);
+    EXPECT_EQ(small.counts, large.counts);
+}
+
+TEST(MachineRays, ThatCannotHitPassThrough) {
+    const auto image = test::image_of(test::triangle_soup(50, 16));
+    std::vector<model::Ray> rays = test::rays_into_unit_cube(10, 17);
+    for (std::size_t i = 0; i < rays.size(); i += 2) rays[i].direction = {0, 0, 0};
+    const MachineResult result = simulate({}, image, rays, RayKind::ClosestHit);
+    for (std::size_t i = 0; i < rays.size(); i += 2) EXPECT_FALSE(result.hits[i]);
+}
+
+TEST(MachineRays, MayBeNone) {
+    const auto image = test::image_of(test::triangle_soup(50, 16));
+    EXPECT_EQ(simulate({}, image, {}, RayKind::ClosestHit).cycles, 0U);
+}
+
+TEST(MachineMemory, FootprintDecidesWhatReachesDram) {
+    const auto image = test::image_of(test::triangle_soup(2'000, 18, 0.1F));
+    const auto rays = test::rays_into_unit_cube(2'000, 19);
+    Config config;
+    const MachineResult cached = simulate(config, image, rays, RayKind::ClosestHit);
+    // Nothing is fetched from DRAM twice while the image fits the L2.
+    EXPECT_LE(counter(cached.memory, "dram", "read_bytes"), image.size_bytes());
+    config.l2.size_bytes = 16 * 1024;
+    const MachineResult thrashing = simulate(config, image, rays, RayKind::ClosestHit);
+    EXPECT_GT(counter(thrashing.memory, "dram", "read_bytes"), 2 * image.size_bytes());
+    EXPECT_GT(thrashing.cycles, cached.cycles);
+}
+
+}  // namespace
+}  // namespace rtu::sim
