@@ -1,3 +1,79 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <new>
 #include <systemc>
 
-int sc_main(int, char*[]) { return 0; }
+#include "apps/config_command.hpp"
+#include "apps/exit_code.hpp"
+#include "apps/run_command.hpp"
+#include "model/error.hpp"
+#include "study/version.hpp"
+
+namespace rtu::apps {
+namespace {
+
+constexpr const char* description =
+    "rtusim - a cycle-approximate simulator of a hardware ray-tracing unit.\n"
+    "Per scene it reports ray-box and ray-triangle test counts, cycles and million rays per second (MRPS).";
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  rtusim run                              the built-in scene on the default machine\n"
+    "  rtusim run bunny.glb --check            a glTF file, every hit verified\n"
+    "  rtusim run --help                       all options of a run\n"
+    "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
+    "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
+
+int report_usage(const CLI::App& app, const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    fmt::print(stderr, "rtusim: {} (see rtusim --help)\n", error.what());
+    return exit_usage;
+}
+
+int guarded(const std::function<int()>& command) {
+    try {
+        return command();
+    } catch (const Error& error) {
+        fmt::print(stderr, "rtusim: {}\n", error.what());
+        return exit_bad_input;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "rtusim: not enough memory for this scene and resolution\n");
+        return exit_bad_input;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "rtusim: internal error, please report it: {}\n", error.what());
+        return exit_internal;
+    }
+}
+
+int run_cli(int argc, char** argv) {
+    CLI::App app{description, "rtusim"};
+    app.footer(footer);
+    app.set_version_flag("--version", fmt::format("rtusim {}", study::version()),
+                         "print the version and exit");
+    app.require_subcommand(1);
+    std::function<int()> command;
+    add_run_command(app, command);
+    add_config_command(app, command);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return report_usage(app, error);
+    }
+    return guarded(command);
+}
+
+}  // namespace
+}  // namespace rtu::apps
+
+int sc_main(int argc, char** argv) { return rtu::apps::run_cli(argc, argv); }
+
+// libsystemc has a main() too, but that one prints a banner before sc_main() could ask it not to.
+int main(int argc, char** argv) {
+    ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
+    return sc_core::sc_elab_and_sim(argc, argv);
+}

@@ -1,0 +1,33 @@
+#include "apps/machine_options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "sim/presets.hpp"
+
+namespace rtu::apps {
+
+void add_machine_options(CLI::App& command, MachineOptions& options) {
+    command
+        .add_option("--preset", options.preset,
+                    fmt::format("the machine to start from: {}", fmt::join(sim::preset_names(), ", ")))
+        ->type_name("NAME")
+        ->capture_default_str();
+    command
+        .add_option("--config", options.file,
+                    "change it by a TOML file, with keys as `rtusim config` prints them")
+        ->type_name("FILE");
+    command
+        .add_option("--set", options.sets,
+                    "change one key, after the file; repeatable: --set rtu.box.boxes_per_cycle=8")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+sim::EffectiveConfig load(const MachineOptions& options) {
+    const auto file =
+        options.file.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.file);
+    return sim::load_config(options.preset, file, options.sets);
+}
+
+}  // namespace rtu::apps

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/effective_config.hpp"
+
+namespace rtu::apps {
+
+/// The options that choose a machine; `run` and `config` share them.
+struct MachineOptions {
+    std::string preset = "default";
+    std::string file;  ///< empty: none
+    std::vector<std::string> sets;
+};
+
+/// Adds --preset, --config and --set.
+void add_machine_options(CLI::App& command, MachineOptions& options);
+
+/// The machine that they describe; throws Error for anything unknown, repeated or out of range.
+[[nodiscard]] sim::EffectiveConfig load(const MachineOptions& options);
+
+}  // namespace rtu::apps

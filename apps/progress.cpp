@@ -1,0 +1,26 @@
+#include "apps/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace rtu::apps {
+namespace {
+
+constexpr std::string_view clear_line = "\r\x1b[K";
+
+}  // namespace
+
+Progress::Progress() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+    if (is_terminal_) std::fwrite(clear_line.data(), 1, clear_line.size(), stderr);
+}
+
+void Progress::show(std::string_view scene, std::string_view phase) {
+    // 72 characters: a line that wraps could not be cleared.
+    if (is_terminal_) fmt::print(stderr, "{}{:.72}", clear_line, fmt::format("{}: {}", scene, phase));
+}
+
+}  // namespace rtu::apps

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace rtu::apps {
+
+/// Writes to standard output and makes sure that it arrived; throws Error when it did not (a full disk, say).
+void print_all(std::string_view text);
+
+}  // namespace rtu::apps
