@@ -71,8 +71,9 @@ std::optional<Ray> secondary_ray(const Setting& setting, WorkloadKind kind, std:
                    distance_between(point.origin, setting.light) * (1 - 0x1p-12F)};
     }
     RandomStream random(setting.seed, std::uint32_t(kind), pixel);
-    const float t_max = kind == WorkloadKind::AmbientOcclusion ? setting.ao_distance : infinity;
-    return Ray{point.origin, 0, sample_cosine(random, point.normal), t_max};
+    Ray ray{point.origin, 0, sample_cosine(random, point.normal), infinity};
+    if (kind == WorkloadKind::AmbientOcclusion) ray.t_max = setting.ao_distance;
+    return ray;
 }
 
 std::optional<Ray> make_ray(const Setting& setting, WorkloadKind kind, std::uint32_t pixel,

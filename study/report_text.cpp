@@ -54,8 +54,8 @@ std::string check(const CheckReport& check) {
         "  {} compared with Embree: {} differ, besides {} ties and {} neighbours at the same distance\n"
         "  By the exact test Embree is wrong in {} more, and in {} of those the simulated hit is too\n",
         check.is_clean() ? "clean" : "FAILED", grouped(check.compared), grouped(check.mismatches),
-        grouped(check.embree_compared), grouped(check.embree_mismatches), grouped(check.ties), grouped(check.neighbours),
-        grouped(check.embree_wrong), grouped(check.both_wrong));
+        grouped(check.embree_compared), grouped(check.embree_mismatches), grouped(check.ties),
+        grouped(check.neighbours), grouped(check.embree_wrong), grouped(check.both_wrong));
 }
 
 std::string overview(std::span<const SceneReport> reports) {

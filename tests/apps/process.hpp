@@ -34,6 +34,7 @@ class Process {
           child_(::fork()) {
         if (child_ != 0) return;
         std::vector<char*> argv;
+        argv.reserve(arguments.size() + 1);
         for (std::string& argument : arguments) argv.push_back(argument.data());
         argv.push_back(nullptr);
         const bool is_ready = ::chdir(folder.c_str()) == 0 &&

@@ -40,6 +40,26 @@ struct CacheOutcome {
     friend bool operator==(const CacheOutcome&, const CacheOutcome&) = default;
 };
 
+/// Four sets of two ways, line 128, sector 32, two banks.
+inline sim::Config::Cache small_cache() {
+    return {.size_bytes = 1024,
+            .line_bytes = 128,
+            .sector_bytes = 32,
+            .ways = 2,
+            .banks = 2,
+            .mshrs = 4,
+            .targets_per_mshr = 4,
+            .latency_cycles = 7};
+}
+
+inline MemoryRequest read(std::uint64_t address, std::uint32_t size_bytes = 32, std::uint32_t tag = 0,
+                          std::uint8_t source = 0) {
+    return {address, size_bytes, tag, source, false};
+}
+inline MemoryRequest write(std::uint64_t address, std::uint32_t size_bytes = 32) {
+    return {address, size_bytes, 0, 0, true};
+}
+
 /// A cache between mock units: a source for each script, a sink for each reply channel, a memory below.
 class CacheRig {
   public:
