@@ -9,6 +9,12 @@
 namespace rtu::apps {
 namespace {
 
+constexpr const char* footer =
+    "Examples:\n"
+    "  rtusim config > machine.toml                        a file to edit, and to give to --config\n"
+    "  rtusim config --preset rdna4 --set rtu.count=2      a preset with a change\n"
+    "  rtusim config --compare                             all presets side by side\n";
+
 struct ConfigArguments {
     MachineOptions machine;
     bool is_markdown = false;
@@ -33,6 +39,7 @@ void add_config_command(CLI::App& app, std::function<int()>& command) {
         "config",
         "print the machine: every key with its value, unit, range, meaning and source, as TOML that\n"
         "--config reads back");
+    config->footer(footer);
     add_machine_options(*config, arguments->machine);
     CLI::Option* markdown =
         config->add_flag("--markdown", arguments->is_markdown, "print it as a Markdown table");

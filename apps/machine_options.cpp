@@ -7,6 +7,10 @@
 
 namespace rtu::apps {
 
+CLI::Validator is_not_empty() {
+    return {[](const std::string& text) { return text.empty() ? "expected a name, got ''" : ""; }, ""};
+}
+
 void add_machine_options(CLI::App& command, MachineOptions& options) {
     command
         .add_option("--preset", options.preset,
@@ -16,7 +20,8 @@ void add_machine_options(CLI::App& command, MachineOptions& options) {
     command
         .add_option("--config", options.file,
                     "change it by a TOML file, with keys as `rtusim config` prints them")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(is_not_empty());
     command
         .add_option("--set", options.sets,
                     "change one key, after the file; repeatable: --set rtu.box.boxes_per_cycle=8")

@@ -17,6 +17,9 @@ struct MachineOptions {
     std::vector<std::string> sets;
 };
 
+/// Refuses an empty text: an option whose shell variable is not set must not pass for one that is not given.
+[[nodiscard]] CLI::Validator is_not_empty();
+
 /// Adds --preset, --config and --set.
 void add_machine_options(CLI::App& command, MachineOptions& options);
 

@@ -1,17 +1,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <new>
+#include <sstream>
+#include <string>
 #include <systemc>
+#include <vector>
 
 #include "apps/config_command.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/run_command.hpp"
+#include "apps/standard_output.hpp"
 #include "model/error.hpp"
+#include "model/one_line.hpp"
 #include "study/version.hpp"
 
 namespace rtu::apps {
@@ -29,9 +33,21 @@ constexpr const char* footer =
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
+    if (!app.get_subcommands().empty()) return error.what();
+    const std::vector<std::string> rest = app.remaining();
+    return rest.empty() ? "expected a command, run or config"
+                        : fmt::format("expected a command, run or config, got '{}'", rest.front());
+}
+
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
-    fmt::print(stderr, "rtusim: {} (see rtusim --help)\n", error.what());
+    if (error.get_exit_code() == 0) {  // --help and --version
+        std::ostringstream text;
+        app.exit(error, text, text);
+        print_all(text.str());
+        return exit_done;
+    }
+    print_error(model::printable(usage_error(app, error)) + " (see rtusim --help)");
     return exit_usage;
 }
 
@@ -39,13 +55,13 @@ int guarded(const std::function<int()>& command) {
     try {
         return command();
     } catch (const Error& error) {
-        fmt::print(stderr, "rtusim: {}\n", error.what());
+        print_error(model::printable(error.what()));  // it may quote anything that was typed
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "rtusim: not enough memory for this scene and resolution\n");
+        print_error("not enough memory for this scene, resolution and machine");
         return exit_bad_input;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "rtusim: internal error, please report it: {}\n", error.what());
+        print_error(fmt::format("internal error, please report it: {}", error.what()));
         return exit_internal;
     }
 }
@@ -59,12 +75,14 @@ int run_cli(int argc, char** argv) {
     std::function<int()> command;
     add_run_command(app, command);
     add_config_command(app, command);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return report_usage(app, error);
-    }
-    return guarded(command);
+    return guarded([&] {
+        try {
+            app.parse(argc, argv);
+        } catch (const CLI::ParseError& error) {
+            return report_usage(app, error);
+        }
+        return command();
+    });
 }
 
 }  // namespace

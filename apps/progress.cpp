@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <string>
 
 namespace rtu::apps {
 namespace {
@@ -20,7 +21,9 @@ Progress::~Progress() {
 
 void Progress::show(std::string_view scene, std::string_view phase) {
     // 72 characters: a line that wraps could not be cleared.
-    if (is_terminal_) fmt::print(stderr, "{}{:.72}", clear_line, fmt::format("{}: {}", scene, phase));
+    if (!is_terminal_) return;
+    const std::string line = fmt::format("{}{:.72}", clear_line, fmt::format("{}: {}", scene, phase));
+    std::fwrite(line.data(), 1, line.size(), stderr);  // a terminal that has gone is no reason to stop
 }
 
 }  // namespace rtu::apps

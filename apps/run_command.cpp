@@ -51,7 +51,8 @@ void add_scene_options(CLI::App& run, RunArguments& arguments) {
     run.add_option("--camera", arguments.camera,
                    "TOML with eye, target, up, tan_half_fov, in a table named like the scene;\n"
                    "without it, or without the scene's table, the camera is automatic")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(is_not_empty());
     run.add_option("--seed", arguments.seed, "of the random numbers of ao, diffuse and random rays")
         ->type_name("N")
         ->capture_default_str();
@@ -60,12 +61,15 @@ void add_scene_options(CLI::App& run, RunArguments& arguments) {
 void add_output_options(CLI::App& run, RunArguments& arguments) {
     run.add_option("--json", arguments.json,
                    "write the report as JSON; - is standard output, and no text then")
-        ->type_name("FILE|-");
+        ->type_name("FILE|-")
+        ->check(is_not_empty());
     run.add_option("--csv", arguments.csv, "write the report as CSV, a row for each scene and workload")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(is_not_empty());
     run.add_option("--image", arguments.image_folder,
                    "write SCENE_normal.png and SCENE_box_tests.png there; made if missing")
-        ->type_name("DIR");
+        ->type_name("DIR")
+        ->check(is_not_empty());
     run.add_flag(
         "--check", arguments.is_checked,
         "compare every hit with the reference traversal and with Embree;\na difference is exit code 3");
@@ -122,7 +126,7 @@ int run(const RunArguments& arguments) {
         return report.check.value_or(study::CheckReport{}).is_clean();
     });
     if (is_clean) return exit_done;
-    fmt::print(stderr, "rtusim: the check found differences, please report it\n");
+    print_error("the check found differences, please report it");
     return exit_internal;
 }
 

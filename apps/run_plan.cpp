@@ -35,9 +35,12 @@ model::Resolution parse_resolution(std::string_view text) {
     const std::size_t cross = std::min(text.find('x'), text.size());
     const auto width = parse_number(text.substr(0, cross));
     const auto height = parse_number(text.substr(std::min(cross + 1, text.size())));
+    constexpr std::uint64_t most_pixels = 1 << 26;  // each costs about 100 bytes of host memory
     const auto is_side = [](auto side) { return side && *side >= 1 && *side <= 16384; };
-    if (!is_side(width) || !is_side(height)) {
-        throw Error("--resolution: expected WIDTHxHEIGHT with sides of 1 to 16384 pixels, got '{}'", text);
+    if (!is_side(width) || !is_side(height) || *width * *height > most_pixels) {
+        throw Error(
+            "--resolution: expected WIDTHxHEIGHT with sides of 1 to 16384 pixels, {} in all, got '{}'",
+            most_pixels, text);
     }
     return {std::uint32_t(*width), std::uint32_t(*height)};
 }
@@ -85,9 +88,9 @@ void check_outputs(const RunPlan& plan) {
     for (const auto& output : {plan.json, plan.csv}) {
         if (!output) continue;
         study::check_writable(*output);
-        for (const study::SceneSource& scene : plan.scenes) {
-            if (scene.file && is_same_file(*scene.file, *output)) {
-                throw Error("{}: is a scene of this run, and would be overwritten", output->string());
+        for (const fs::path& input : plan.inputs) {
+            if (is_same_file(input, *output)) {
+                throw Error("{}: is an input of this run, and would be overwritten", output->string());
             }
         }
     }
@@ -126,6 +129,10 @@ RunPlan make_run_plan(const RunArguments& arguments) {
         for (const study::SceneSource& scene : plan.scenes) {
             static_cast<void>(model::load_camera(*options.camera_file, scene.name()));  // for its errors
         }
+    }
+    for (const std::string& name : arguments.scenes) plan.inputs.emplace_back(name);
+    for (const std::string& name : {arguments.camera, arguments.machine.file}) {
+        if (!name.empty()) plan.inputs.emplace_back(name);
     }
     plan.threads = arguments.threads;
     plan.is_json_to_stdout = arguments.json == "-";

@@ -33,6 +33,7 @@ struct RunArguments {
 struct RunPlan {
     study::RunOptions options;
     std::vector<study::SceneSource> scenes;
+    std::vector<std::filesystem::path> inputs;  ///< every file that is read: no output may replace one
     unsigned threads = 0;
     bool is_json_to_stdout = false;
     std::optional<std::filesystem::path> json;

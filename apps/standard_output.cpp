@@ -15,4 +15,10 @@ void print_all(std::string_view text) {
     }
 }
 
+void print_error(std::string_view text) {
+    std::fwrite("rtusim: ", 1, 8, stderr);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fputc('\n', stderr);
+}
+
 }  // namespace rtu::apps

@@ -1,4 +1,5 @@
-// Simulated rays per second of host CPU time: the whole machine with its memory hierarchy, default configuration.
+// Simulated rays per second of host CPU time: the whole machine with its memory hierarchy, default
+// configuration.
 
 #include <benchmark/benchmark.h>
 

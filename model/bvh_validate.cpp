@@ -13,11 +13,7 @@ std::array<Vec3, 3> file_corners(const LeafPair& pair, std::uint32_t triangle) {
     const std::array<Vec3, 3> stored =
         triangle == 0 ? std::array{v[0], v[1], v[2]} : std::array{v[0], v[2], v[3]};
     const CornerOrder order = pair.corner_order(triangle);
-    std::array<Vec3, 3> corners;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-        corners[k] = stored[(order.rotation + (order.is_reversed ? 3 - k : k)) % 3];
-    }
-    return corners;
+    return {stored[order.stored_corner(0)], stored[order.stored_corner(1)], stored[order.stored_corner(2)]};
 }
 
 template <std::uint32_t Width>

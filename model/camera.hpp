@@ -28,7 +28,7 @@ struct Resolution {
 /// The camera of table [scene_name] in a TOML file (keys eye, target, up, tan_half_fov), or nothing when the
 /// file has no such table. A file with those keys at its top level serves every scene. Throws Error with file
 /// and line for a file that cannot be read, an unknown or missing key, or a camera that sees nothing (eye =
-/// target, up parallel to the view, tan_half_fov outside (0, 100]).
+/// target, a coordinate beyond max_coordinate, up parallel to the view, tan_half_fov outside (0, 100]).
 [[nodiscard]] std::optional<Camera> load_camera(const std::filesystem::path& file,
                                                 std::string_view scene_name);
 

@@ -23,7 +23,7 @@ std::optional<float> read_float(const toml::node& node) {
     return float(*value);
 }
 
-Vec3 read_vec3(const std::filesystem::path& file, std::string_view key, const toml::node& node) {
+Vec3 read_direction(const std::filesystem::path& file, std::string_view key, const toml::node& node) {
     Vec3 result;
     const toml::array* array = node.as_array();
     bool is_good = array != nullptr && array->size() == 3;
@@ -34,6 +34,17 @@ Vec3 read_vec3(const std::filesystem::path& file, std::string_view key, const to
     }
     if (!is_good) throw Error("{}: {}: expected three finite numbers [x, y, z]", place(file, node), key);
     return result;
+}
+
+Vec3 read_point(const std::filesystem::path& file, std::string_view key, const toml::node& node) {
+    const Vec3 point = read_direction(file, key, node);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(std::abs(point[axis]) <= max_coordinate)) {
+            throw Error("{}: {}: expected coordinates of at most {:g}, got {:g}", place(file, node), key,
+                        max_coordinate, point[axis]);
+        }
+    }
+    return point;
 }
 
 float read_tan_half_fov(const std::filesystem::path& file, const toml::node& node) {
@@ -58,11 +69,11 @@ Camera read_camera(const std::filesystem::path& file, const toml::table& table) 
     Camera camera;
     for (const auto& [key, node] : table) {
         if (key == "eye") {
-            camera.eye = read_vec3(file, key, node);
+            camera.eye = read_point(file, key, node);
         } else if (key == "target") {
-            camera.target = read_vec3(file, key, node);
+            camera.target = read_point(file, key, node);
         } else if (key == "up") {
-            camera.up = read_vec3(file, key, node);
+            camera.up = read_direction(file, key, node);
         } else if (key == "tan_half_fov") {
             camera.tan_half_fov = read_tan_half_fov(file, node);
         } else {

@@ -11,6 +11,7 @@
 #include "model/gltf_hierarchy.hpp"
 #include "model/gltf_primitive.hpp"
 #include "model/one_line.hpp"
+#include "model/sampling.hpp"
 
 namespace rtu::model {
 
@@ -74,6 +75,24 @@ TriangleMesh flatten(const tinygltf::Model& model, const std::string& name) {
     return mesh;
 }
 
+void check_size(const TriangleMesh& mesh, const std::string& name) {
+    const Aabb box = bounds(mesh);
+    float largest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        largest = std::max({largest, -box.lo[axis], box.hi[axis]});
+    }
+    if (largest > max_coordinate) {
+        throw Error(
+            "{}: expected coordinates of at most {:g}, found {:g}: binary32 arithmetic would overflow", name,
+            max_coordinate, largest);
+    }
+    if (const float diagonal = distance_between(box.lo, box.hi); diagonal < min_diagonal) {
+        throw Error(
+            "{}: expected a scene of at least {:g} across, found {:g}: binary32 arithmetic would underflow",
+            name, min_diagonal, diagonal);
+    }
+}
+
 }  // namespace
 
 TriangleMesh load_gltf(const std::filesystem::path& file) {
@@ -88,6 +107,7 @@ TriangleMesh load_gltf(const std::filesystem::path& file) {
             throw Error("{}: expected a triangle with an area, found {} degenerate triangles only", name,
                         mesh.triangles.size());
         }
+        check_size(mesh, name);
         return mesh;
     } catch (const std::bad_alloc&) {
         throw Error("{}: not enough memory to read the scene", name);

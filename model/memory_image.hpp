@@ -14,12 +14,13 @@
 // NodeRef:  bit 31     1 = leaf
 //           bits 30-28 leaf: number of pairs - 1; inner node: 0
 //           bits 27-0  address / 64
-// Pair of a leaf (64 bytes):
-//   float  v0[3], v1[3], v2[3], v3[3]       triangle 0 = (v0, v1, v2), triangle 1 = (v0, v2, v3); lone: v3 =
-//   v2 uint32 primitive_ids[2]                 lone: the same twice uint32 flags bit 0: has triangle 1; bits
-//   1-2, 3: rotation and reversal of triangle 0;
-//                                           bits 4-5, 6: of triangle 1; bits 8, 9: triangle 0, 1 is
-//                                           degenerate
+// Pair of a leaf (64 bytes); triangle 0 = (v0, v1, v2), triangle 1 = (v0, v2, v3):
+//   float  v0[3], v1[3], v2[3], v3[3]   lone triangle: v3 = v2
+//   uint32 primitive_ids[2]             lone triangle: the same twice
+//   uint32 flags                        bit 0: has triangle 1
+//                                       bits 1-2, 3: rotation and reversal of triangle 0
+//                                       bits 4-5, 6: of triangle 1
+//                                       bits 8, 9: triangle 0, 1 is degenerate
 //   uint32 zero
 
 #include <array>
@@ -37,8 +38,8 @@ namespace rtu::model {
 inline constexpr std::uint32_t image_block_bytes = 64;
 inline constexpr std::uint32_t max_bvh_width = 8;
 inline constexpr std::uint32_t max_leaf_pairs = 8;
-inline constexpr std::uint64_t max_image_bytes = std::uint64_t(image_block_bytes)
-                                                 << 28;  ///< what a NodeRef can address
+/// What a NodeRef can address.
+inline constexpr std::uint64_t max_image_bytes = std::uint64_t(image_block_bytes) << 28;
 
 /// Where a child lies in the image, and what it is; 4 bytes, as stored in nodes.
 class NodeRef {

@@ -9,6 +9,12 @@
 
 namespace rtu::model {
 
+/// The largest coordinate of a scene or camera, and the least diagonal of a scene's box, in scene units:
+/// beyond them the intersection arithmetic, which multiplies three coordinates in binary32, overflows or
+/// underflows.
+inline constexpr float max_coordinate = 1e11F;
+inline constexpr float min_diagonal = 1e-9F;
+
 /// Three indices into the vertex positions, in the file's winding order.
 using Triangle = std::array<std::uint32_t, 3>;
 

@@ -50,12 +50,6 @@ Side edge_side(Sheared p, Sheared q) {
 // barycentrics keep their digits.
 float edge_function(Sheared p, Sheared q) { return difference_of_products(p.x, q.y, p.y, q.x); }
 
-// The stored corner that is corner `corner` of the file's triangle.
-std::uint32_t stored_corner(CornerOrder order, std::uint32_t corner) {
-    const std::uint32_t step = order.is_reversed ? 3U - corner : corner;
-    return (order.rotation + step) % 3U;
-}
-
 struct Corners {
     Sheared a, b, c;
 };
@@ -77,8 +71,8 @@ bool intersect(const Corners& corners, const Sides& sides, const RaySetup& ray, 
     const float t = depth / area;
     if (std::isnan(t)) return false;
     hit.t = std::max(t, t_near);
-    hit.u = weights[stored_corner(order, 1)] / area;
-    hit.v = weights[stored_corner(order, 2)] / area;
+    hit.u = weights[order.stored_corner(1)] / area;
+    hit.v = weights[order.stored_corner(2)] / area;
     return true;
 }
 

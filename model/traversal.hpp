@@ -65,8 +65,9 @@ struct Traversal {
 /// Entries that a traversal of this image can ever stack: (width - 1) a level.
 [[nodiscard]] std::size_t stack_capacity(const MemoryImage& image);
 
-/// Puts `traversal` at the root for a new ray; its stack keeps its memory and has room for the whole walk. False: the ray cannot hit anything
-/// (a component is not finite, the direction is zero, or the interval is empty) and must not be traversed.
+/// Puts `traversal` at the root for a new ray; its stack keeps its memory and has room for the whole walk.
+/// False: the ray cannot hit anything (a component is not finite, the direction is zero, or the interval is
+/// empty) and must not be traversed.
 [[nodiscard]] bool start(Traversal& traversal, const MemoryImage& image, const Ray& ray, RayKind kind);
 
 /// Boxes that a visit of inner node `ref` tests: its children, 1 to width.

@@ -1,14 +1,12 @@
 #include "model/workload.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <functional>
 #include <optional>
 #include <utility>
 
 #include "model/error.hpp"
+#include "model/parallel.hpp"
 #include "model/sampling.hpp"
 #include "model/surface.hpp"
 #include "model/traversal.hpp"
@@ -110,7 +108,7 @@ Workload make_workload(WorkloadKind kind, const TriangleMesh& mesh, const Memory
                           0.1F * distance_between(image.bounds.lo, image.bounds.hi)};
     const std::uint32_t pixel_count = resolution.width * resolution.height;
     std::vector<std::optional<Ray>> rays(pixel_count);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, pixel_count, 256), [&](const auto& range) {
+    for_each_range<std::uint32_t>(pixel_count, 256, [&](const auto& range) {
         Traversal scratch;
         for (std::uint32_t pixel = range.begin(); pixel != range.end(); ++pixel) {
             rays[pixel] = make_ray(setting, kind, pixel, scratch);

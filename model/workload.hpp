@@ -30,9 +30,8 @@ struct Workload {
 /// points of the scene's box; shadow, ao, diffuse: from each primary hit, moved off the surface by an error
 /// bound, towards the light (any hit), within the hemisphere up to a tenth of the scene's diagonal (any hit),
 /// and with a cosine distribution (closest hit). A pixel whose primary ray misses starts no secondary ray.
-/// Random numbers are counter-based: a ray depends on its pixel and the seed only. Bit-equal on every machine
-/// (only
-/// +, -, *, / and sqrt), whatever the thread count.
+/// Random numbers are counter-based: a ray depends on its pixel and the seed only. Bit-equal on every
+/// machine, whatever the thread count: nothing but sums, products, quotients and square roots.
 [[nodiscard]] Workload make_workload(WorkloadKind kind, const TriangleMesh& mesh, const MemoryImage& image,
                                      const Camera& camera, Resolution resolution, std::uint64_t seed);
 

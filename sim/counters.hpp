@@ -44,6 +44,7 @@ inline constexpr std::array box_counter_rows = std::to_array<CounterRow<BoxCount
 static_assert(has_row_for_every_field(box_counter_rows));
 
 struct PairCounters {
+    std::uint64_t leaf_visits = 0;
     std::uint64_t pair_tests = 0;
     std::uint64_t triangle_tests = 0;
     std::uint64_t replays = 0;
@@ -52,6 +53,7 @@ struct PairCounters {
 };
 
 inline constexpr std::array pair_counter_rows = std::to_array<CounterRow<PairCounters>>({
+    {"leaf_visits", "leaves", "leaves tested", &PairCounters::leaf_visits},
     {"pair_tests", "tests", "pairs and lone triangles tested", &PairCounters::pair_tests},
     {"triangle_tests", "tests", "triangles in them", &PairCounters::triangle_tests},
     {"replays", "replays", "folded pairs pierced twice with one depth unit", &PairCounters::replays},

@@ -62,10 +62,11 @@ class Machine {
 
     MachineResult run(const SimulationProgress& progress) {
         MachineResult result;
-        result.cycles = domain_.run([this] { return sink_.is_done(); },
-                                    [&] {
-                                        if (progress) progress(double(sink_.received()) / double(ray_count_));
-                                    });
+        const auto tell = [&] {
+            if (progress) progress(double(sink_.received()) / double(ray_count_));
+        };
+        // The sink cannot be done before its first cycle, so a workload without rays gets none.
+        if (ray_count_ > 0) result.cycles = domain_.run([this] { return sink_.is_done(); }, tell);
         collect(result);
         check(result);
         result.hits = sink_.take_hits();
@@ -159,7 +160,6 @@ MachineResult simulate(const Config& config, const model::MemoryImage& image,
                        const SimulationProgress& progress) {
     RTU_CHECK(rays.size() < std::numeric_limits<std::uint32_t>::max(), "{} rays in one simulation",
               rays.size());
-    if (rays.empty()) return {};
     start_fresh_kernel();
     return Machine(config, image, rays, kind, mode).run(progress);
 }

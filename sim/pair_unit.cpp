@@ -54,6 +54,7 @@ void PairUnit::retire(Cycle now) {
 void PairUnit::issue(Tester& tester, Cycle now) {
     const SlotToken token{leaves_in->pop(now).tag};
     const std::uint32_t held = test_leaf(slots_[token.slot]);
+    ++counters_.leaf_visits;
     counters_.tester_cycles += held;
     tester.free_at = now + held;
     tester.pipeline.push(now + held - config_.ii_cycles, token);

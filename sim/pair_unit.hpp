@@ -18,7 +18,7 @@ namespace rtu::sim {
 /// Tests the pairs of fetched leaves. Each of `testers` takes one leaf at a time and holds it for `ii_cycles`
 /// an issue: one issue a pair, or one a triangle in mode `single`; in mode `dual_shared` a folded pair of
 /// which both triangles are pierced takes `replay_cycles` more, because there is one depth unit. A result
-/// leaves `latency_cycles` after the last issue (or replay) began.
+/// leaves `latency_cycles` after the last issue began, and that begins later by all replays before its end.
 class PairUnit final : public ClockedUnit {
   public:
     PairUnit(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu::Pair& config,

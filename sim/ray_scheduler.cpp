@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/error.hpp"
 #include "model/traversal.hpp"
 
 namespace rtu::sim {
@@ -27,6 +28,17 @@ std::string RayScheduler::describe() const {
     return fmt::format("{} of {} slots in use, {} requests queued, {} box and {} pair results waiting",
                        slots_.size() - free_slots_.size(), slots_.size(), queued_.size(),
                        box_results_in->size(), pair_results_in->size());
+}
+
+void RayScheduler::check_drained() const {
+    const SchedulerCounters& c = counters_;
+    RTU_CHECK(c.rays_accepted == c.rays_finished, "{}: {} rays in, {} out", name(), c.rays_accepted,
+              c.rays_finished);
+    RTU_CHECK(free_slots_.size() == slots_.size() && queued_.empty(), "{}: not drained: {}", name(),
+              describe());
+    RTU_CHECK(c.reloaded_entries == c.spilled_entries ||
+                  (kind_ == model::RayKind::AnyHit && c.reloaded_entries < c.spilled_entries),
+              "{}: {} stack entries spilled, {} read back", name(), c.spilled_entries, c.reloaded_entries);
 }
 
 bool RayScheduler::has_work(Cycle now) const {

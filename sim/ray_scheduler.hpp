@@ -55,6 +55,10 @@ class RayScheduler final : public ClockedUnit {
     [[nodiscard]] const SchedulerCounters& counters() const { return counters_; }
     [[nodiscard]] Cycle next_event(Cycle now) const override;
     [[nodiscard]] std::string describe() const override;
+    /// Throws std::logic_error unless every slot is free again and every spilled entry that its ray needed
+    /// was read back: all of a closest-hit ray, which ends with an empty stack; an any-hit ray may leave
+    /// some.
+    void check_drained() const;
 
   protected:
     Activity tick(Cycle now) override;

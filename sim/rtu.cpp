@@ -48,14 +48,15 @@ Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config
 }
 
 void Rtu::check_drained() const {
+    scheduler.check_drained();
     const SchedulerCounters& s = scheduler.counters();
-    RTU_CHECK(s.rays_accepted == s.rays_finished, "{}: {} rays in, {} out", name(), s.rays_accepted,
-              s.rays_finished);
     RTU_CHECK(s.node_fetches == box.counters().node_visits, "{}: {} nodes fetched, {} tested", name(),
               s.node_fetches, box.counters().node_visits);
+    RTU_CHECK(s.leaf_fetches == pair.counters().leaf_visits, "{}: {} leaves fetched, {} tested", name(),
+              s.leaf_fetches, pair.counters().leaf_visits);
     l1.check_drained();
-    RTU_CHECK(rays_in.size() + hits_out.size() + nodes_.size() + leaves_.size() + stack_blocks_.size() +
-                      box_results_.size() + pair_results_.size() ==
+    RTU_CHECK(rays_in.size() + hits_out.size() + requests_.size() + fills_in.size() + nodes_.size() +
+                      leaves_.size() + stack_blocks_.size() + box_results_.size() + pair_results_.size() ==
                   0,
               "{}: a channel is not empty at the end", name());
 }

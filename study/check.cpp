@@ -1,14 +1,13 @@
 #include "study/check.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
-#include "study/exact_oracle.hpp"
+#include "model/parallel.hpp"
 
 namespace rtu::study {
 
@@ -33,6 +32,39 @@ float reach(const model::TriangleMesh& mesh, std::uint32_t primitive_id, model::
     return result;
 }
 
+float ulp_of(float value) { return std::nextafter(value, 2 * value) - value; }
+
+std::size_t largest_axis(model::Vec3 v) {
+    const float x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+    return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
+// Eight ways across the ray, and two along it.
+constexpr std::array<std::array<double, 3>, 10> ways_to_move{{{1, 0, 0},
+                                                              {1, 1, 0},
+                                                              {0, 1, 0},
+                                                              {-1, 1, 0},
+                                                              {-1, 0, 0},
+                                                              {-1, -1, 0},
+                                                              {0, -1, 0},
+                                                              {1, -1, 0},
+                                                              {0, 0, 1},
+                                                              {0, 0, -1}}};
+
+// Stricter than ExactHits::allows_closest(): a ray through an edge is no miss.
+bool is_the_answer(const ExactHits& exact, model::RayKind kind, const std::optional<model::Hit>& hit) {
+    if (kind == model::RayKind::AnyHit || !hit) return hit.has_value() == !exact.nearest.empty();
+    return exact.allows_closest(hit->primitive_id);
+}
+
+// Whether the ray truly meets this triangle, nearest or not.
+bool is_pierced(const model::TriangleMesh& mesh, std::uint32_t primitive_id, const model::Ray& ray) {
+    model::TriangleMesh alone{mesh.name, {}, {{0, 1, 2}}};
+    for (const std::uint32_t vertex : mesh.triangles[primitive_id])
+        alone.positions.push_back(mesh.positions[vertex]);
+    return !exact_hits(alone, ray).nearest.empty();
+}
+
 }  // namespace
 
 HitChecker::Verdict HitChecker::compare(const model::Ray& ray, model::RayKind kind,
@@ -48,7 +80,7 @@ model::TraversalCounts HitChecker::check(const model::Workload& workload,
                                          std::span<const std::optional<model::Hit>> hits) {
     std::vector<Verdict> verdicts(hits.size());
     tbb::enumerable_thread_specific<model::Traversal> scratch;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hits.size()), [&](const auto& range) {
+    model::for_each_range<std::size_t>(hits.size(), 1, [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             verdicts[i] = compare(workload.rays[i], workload.ray_kind, hits[i], scratch.local());
         }
@@ -65,11 +97,29 @@ model::TraversalCounts HitChecker::check(const model::Workload& workload,
     return counts;
 }
 
-bool HitChecker::are_neighbours(const model::Ray& ray, const model::Hit& a, const model::Hit& b) const {
-    const float largest =
-        std::max(reach(mesh_, a.primitive_id, ray.origin), reach(mesh_, b.primitive_id, ray.origin));
-    const float ulp = std::nextafter(largest, 2 * largest) - largest;
+bool HitChecker::is_at_same_distance(const model::Ray& ray, const model::Hit& a, const model::Hit& b) const {
+    if (!is_pierced(mesh_, a.primitive_id, ray)) return false;
+    const float ulp =
+        ulp_of(std::max(reach(mesh_, a.primitive_id, ray.origin), reach(mesh_, b.primitive_id, ray.origin)));
     return std::abs(a.t - b.t) * length(ray.direction) <= float(neighbour_ulps) * ulp;
+}
+
+bool HitChecker::is_right_beside(const model::Ray& ray, model::RayKind kind,
+                                 const std::optional<model::Hit>& hit, const ExactHits& exact) const {
+    float largest = hit ? reach(mesh_, hit->primitive_id, ray.origin) : 0.0F;
+    for (const std::uint32_t id : exact.nearest) largest = std::max(largest, reach(mesh_, id, ray.origin));
+    const double ulp = ulp_of(largest);
+    const std::size_t z = largest_axis(ray.direction), x = (z + 1) % 3, y = (z + 2) % 3;
+    for (int ulps = 1; ulps <= neighbour_ulps; ulps *= 2) {
+        for (const auto& [right, up, ahead] : ways_to_move) {
+            std::array<double, 3> shift{};
+            shift[x] = ulp * ulps * (right + ahead * ray.direction[x] / ray.direction[z]);
+            shift[y] = ulp * ulps * (up + ahead * ray.direction[y] / ray.direction[z]);
+            shift[z] = ulp * ulps * ahead;
+            if (is_the_answer(exact_hits(mesh_, ray, shift), kind, hit)) return true;
+        }
+    }
+    return false;
 }
 
 void HitChecker::judge(const model::Ray& ray, model::RayKind kind, const std::optional<model::Hit>& hit) {
@@ -86,7 +136,9 @@ void HitChecker::judge(const model::Ray& ray, model::RayKind kind, const std::op
         if (!is_ours_right) ++report_.both_wrong;
     } else if (is_ours_right) {
         ++report_.ties;
-    } else if (kind == model::RayKind::ClosestHit && hit && other && are_neighbours(ray, *hit, *other)) {
+    } else if ((kind == model::RayKind::ClosestHit && hit && other &&
+                is_at_same_distance(ray, *hit, *other)) ||
+               is_right_beside(ray, kind, hit, exact)) {
         ++report_.neighbours;
     } else {
         ++report_.embree_mismatches;

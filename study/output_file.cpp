@@ -176,7 +176,10 @@ void write_files(std::span<const OutputFile> files) {
 }
 
 void remove_temporaries_on_interrupt() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+        const auto previous = std::signal(signal, on_signal);
+        if (signal == SIGHUP && previous == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup asked for it
+    }
 }
 
 }  // namespace rtu::study

@@ -24,8 +24,8 @@ void check_writable_folder(const std::filesystem::path& folder);
 /// Error naming the file that failed; no temporary file is left.
 void write_files(std::span<const OutputFile> files);
 
-/// From now on SIGINT, SIGTERM and SIGHUP end the process at once with exit code 128 + signal, after removing
-/// the temporary files of a `write_files` under way.
+/// From now on SIGINT, SIGTERM, SIGHUP (unless ignored, as under nohup) and SIGPIPE end the process at once
+/// with exit code 128 + signal, after removing the temporary files of a `write_files` under way.
 void remove_temporaries_on_interrupt();
 
 }  // namespace rtu::study

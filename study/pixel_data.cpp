@@ -1,8 +1,6 @@
 #include "study/pixel_data.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
+#include "model/parallel.hpp"
 #include "model/surface.hpp"
 #include "model/traversal.hpp"
 
@@ -13,7 +11,7 @@ PixelData trace_pixels(const model::TriangleMesh& mesh, const model::MemoryImage
     const std::uint32_t count = resolution.width * resolution.height;
     PixelData data{resolution, std::vector<std::optional<model::Vec3>>(count),
                    std::vector<std::uint32_t>(count)};
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 256), [&](const auto& range) {
+    model::for_each_range<std::uint32_t>(count, 256, [&](const auto& range) {
         model::Traversal scratch;
         for (std::uint32_t pixel = range.begin(); pixel != range.end(); ++pixel) {
             const model::Ray ray =

@@ -51,7 +51,7 @@ std::string check(const CheckReport& check) {
     return fmt::format(
         "\nCheck: {}\n"
         "  {} hits compared with the reference traversal: {} differ\n"
-        "  {} compared with Embree: {} differ, besides {} ties and {} neighbours at the same distance\n"
+        "  {} compared with Embree: {} differ, besides {} ties and {} neighbours within rounding\n"
         "  By the exact test Embree is wrong in {} more, and in {} of those the simulated hit is too\n",
         check.is_clean() ? "clean" : "FAILED", grouped(check.compared), grouped(check.mismatches),
         grouped(check.embree_compared), grouped(check.embree_mismatches), grouped(check.ties),

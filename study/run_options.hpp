@@ -38,9 +38,8 @@ struct RunOptions {
     std::string preset = "default";  ///< only named in the report
     sim::Config config;              ///< the effective configuration
     sim::ClockMode clock_mode = sim::ClockMode::Fast;
-    bool is_checked = false;  ///< compare every hit with the reference traversal and with Embree
-    bool wants_pixels =
-        false;  ///< fill SceneReport::pixels from a primary workload (simulated or functional)
+    bool is_checked = false;    ///< compare every hit with the reference traversal and with Embree
+    bool wants_pixels = false;  ///< fill SceneReport::pixels: see trace_pixels()
     /// Told at the start of each phase, and now and then within one; may be empty.
     std::function<void(std::string_view phase)> progress;
 };

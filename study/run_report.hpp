@@ -86,7 +86,7 @@ struct CheckReport {
     std::uint64_t embree_wrong = 0;       ///< differences in which the exact test finds Embree wrong
     std::uint64_t both_wrong = 0;  ///< of those, in which the simulated hit is not the exact one either
     std::uint64_t ties = 0;        ///< another triangle, and the exact test allows both
-    std::uint64_t neighbours = 0;  ///< another triangle, within binary32's resolution of the exact distance
+    std::uint64_t neighbours = 0;  ///< the exact answer within binary32's resolution: see HitChecker
     [[nodiscard]] bool is_clean() const { return mismatches == 0 && embree_mismatches == 0; }
 };
 
@@ -95,7 +95,7 @@ struct HostFacts {
     double cpu_seconds = 0;        ///< CPU time inside the cycle simulation, all workloads
     double total_cpu_seconds = 0;  ///< CPU time of the whole scene, from its file to its last hit
     std::uint64_t simulated_rays = 0;
-    std::uint64_t peak_rss_bytes = 0;
+    std::uint64_t peak_rss_bytes = 0;  ///< of the process since its start: the scenes before count too
 };
 
 /// Everything that one scene's run reports. Deterministic outside `host`, `pairing.seconds` and
@@ -107,7 +107,7 @@ struct SceneReport {
     std::uint64_t seed = 0;
     model::Resolution resolution;
     model::Camera camera;
-    std::string camera_source;  ///< "automatic", or the camera file's name
+    std::string camera_source;  ///< "automatic", "built-in", or the camera file's name
     SceneFacts scene;
     PairingFacts pairing;
     BvhFacts bvh;

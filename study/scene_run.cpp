@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <tuple>
 #include <utility>
 
 #include "model/builtin_scene.hpp"
@@ -56,42 +57,31 @@ SceneFacts facts(const model::TriangleMesh& mesh, const SceneSource& source) {
     return {source.name(), mesh.triangles.size(), mesh.positions.size(), model::count_degenerate(mesh)};
 }
 
-model::Pairing pair(const model::TriangleMesh& mesh, const RunOptions& options, PairingFacts& facts) {
-    const Stopwatch watch;
-    model::Pairing pairing = model::pair_triangles(mesh, options.pairing, options.edge_identity);
-    facts = {model::to_string(options.pairing),
-             std::string(model::to_string(options.edge_identity)),
-             pairing.paired_percent(),
-             pairing.pair_count,
-             pairing.single_count,
-             watch.seconds()};
-    return pairing;
+PairingFacts facts(const model::Pairing& pairing, const RunOptions& options, double seconds) {
+    return {model::to_string(options.pairing),
+            std::string(model::to_string(options.edge_identity)),
+            pairing.paired_percent(),
+            pairing.pair_count,
+            pairing.single_count,
+            seconds};
 }
 
-model::MemoryImage build(const model::TriangleMesh& mesh, model::Pairing pairing, const RunOptions& options,
-                         BvhFacts& facts) {
-    const Stopwatch watch;
-    model::MemoryImage image = model::build_bvh(
-        mesh, std::move(pairing), {options.config.bvh.width, options.config.bvh.max_leaf_pairs});
-    facts = {image.width, image.node_count, image.leaf_count, image.size_bytes(), watch.seconds()};
-    return image;
+BvhFacts facts(const model::MemoryImage& image, double seconds) {
+    return {image.width, image.node_count, image.leaf_count, image.size_bytes(), seconds};
 }
 
-model::Camera choose_camera(const model::TriangleMesh& mesh, const model::MemoryImage& image,
-                            const SceneSource& source, const RunOptions& options,
-                            std::string& camera_source) {
+using NamedCamera = std::pair<model::Camera, std::string>;
+
+// The scene's camera, and where it comes from.
+NamedCamera choose_camera(const model::TriangleMesh& mesh, const model::MemoryImage& image,
+                          const SceneSource& source, const RunOptions& options) {
     if (options.camera_file) {
-        if (auto camera = model::load_camera(*options.camera_file, source.name())) {
-            camera_source = options.camera_file->filename().string();
-            return *camera;
+        if (const auto camera = model::load_camera(*options.camera_file, source.name())) {
+            return NamedCamera{*camera, options.camera_file->filename().string()};
         }
     }
-    if (!source.file) {
-        camera_source = "built-in";
-        return model::builtin_camera();
-    }
-    camera_source = "automatic";
-    return model::automatic_camera(mesh, image);
+    if (!source.file) return NamedCamera{model::builtin_camera(), "built-in"};
+    return NamedCamera{model::automatic_camera(mesh, image), "automatic"};
 }
 
 std::vector<UnitReport> reports(const std::vector<sim::UnitResult>& units) {
@@ -120,10 +110,7 @@ WorkloadReport report(const model::Workload& workload, const sim::MachineResult&
     return report;
 }
 
-}  // namespace
-
-SceneReport run_scene(const RunOptions& options, const SceneSource& source) {
-    const double cpu_start = cpu_seconds();
+SceneReport described(const RunOptions& options) {
     SceneReport scene;
     scene.version = version();
     scene.preset = options.preset;
@@ -131,38 +118,61 @@ SceneReport run_scene(const RunOptions& options, const SceneSource& source) {
     scene.resolution = options.resolution;
     scene.clock_mhz = options.config.clock_mhz;
     scene.config = config_entries(options.config);
+    return scene;
+}
 
+// Pairs the mesh, builds the tree, proves the image right, and notes down what came out.
+model::MemoryImage build(const model::TriangleMesh& mesh, const RunOptions& options, SceneReport& scene) {
+    const Stopwatch pairing_watch;
+    model::Pairing pairing = model::pair_triangles(mesh, options.pairing, options.edge_identity);
+    scene.pairing = facts(pairing, options, pairing_watch.seconds());
+    const Stopwatch build_watch;
+    model::MemoryImage image = model::build_bvh(
+        mesh, std::move(pairing), {options.config.bvh.width, options.config.bvh.max_leaf_pairs});
+    scene.bvh = facts(image, build_watch.seconds());
+    model::validate(image, mesh);
+    return image;
+}
+
+// Simulates one workload, checks it when there is a checker, and adds it to the report.
+void run_workload(const model::Workload& workload, const model::MemoryImage& image, const RunOptions& options,
+                  HitChecker* checker, SceneReport& scene) {
+    const double simulation_start = cpu_seconds();
+    const sim::MachineResult result = sim::simulate(
+        options.config, image, workload.rays, workload.ray_kind, options.clock_mode,
+        [&](double share) { tell(options, fmt::format("{}: {:.0f} %", workload.name, share * 100)); });
+    scene.host.cpu_seconds += cpu_seconds() - simulation_start;
+    scene.host.simulated_rays += workload.rays.size();
+    scene.workloads.push_back(report(workload, result));
+    if (checker == nullptr) return;
+    tell(options, workload.name + ": checking hits");
+    const model::TraversalCounts counts = checker->check(workload, result.hits);
+    RTU_CHECK(counts == result.counts,
+              "{}: simulated and reference counts differ: {} and {} box tests, {} and {} pair tests",
+              workload.name, result.counts.box_tests, counts.box_tests, result.counts.pair_tests,
+              counts.pair_tests);
+}
+
+}  // namespace
+
+SceneReport run_scene(const RunOptions& options, const SceneSource& source) {
+    const double cpu_start = cpu_seconds();
+    SceneReport scene = described(options);
     tell(options, "loading " + source.name());
     const model::TriangleMesh mesh = load(source);
     scene.scene = facts(mesh, source);
     scene.input_hash = fingerprint(mesh);
     tell(options, "pairing and building the tree");
-    model::Pairing pairing = pair(mesh, options, scene.pairing);
-    const model::MemoryImage image = build(mesh, std::move(pairing), options, scene.bvh);
-    model::validate(image, mesh);
-    scene.camera = choose_camera(mesh, image, source, options, scene.camera_source);
+    const model::MemoryImage image = build(mesh, options, scene);
+    std::tie(scene.camera, scene.camera_source) = choose_camera(mesh, image, source, options);
 
     std::optional<HitChecker> checker;
     if (options.is_checked) checker.emplace(mesh, image);
     for (const model::WorkloadKind kind : options.workloads) {
-        const std::string name(model::to_string(kind));
-        tell(options, name + ": making rays");
+        tell(options, fmt::format("{}: making rays", model::to_string(kind)));
         const model::Workload workload =
             model::make_workload(kind, mesh, image, scene.camera, options.resolution, options.seed);
-        const double simulation_start = cpu_seconds();
-        const sim::MachineResult result = sim::simulate(
-            options.config, image, workload.rays, workload.ray_kind, options.clock_mode,
-            [&](double share) { tell(options, fmt::format("{}: {:.0f} %", name, share * 100)); });
-        scene.host.cpu_seconds += cpu_seconds() - simulation_start;
-        scene.host.simulated_rays += workload.rays.size();
-        scene.workloads.push_back(report(workload, result));
-        if (!checker) continue;
-        tell(options, name + ": checking hits");
-        const model::TraversalCounts counts = checker->check(workload, result.hits);
-        RTU_CHECK(counts == result.counts,
-                  "{}: simulated and reference counts differ: {} and {} box tests, {} and {} pair tests",
-                  name, result.counts.box_tests, counts.box_tests, result.counts.pair_tests,
-                  counts.pair_tests);
+        run_workload(workload, image, options, checker ? &*checker : nullptr, scene);
     }
     if (checker) scene.check = checker->report();
     if (options.wants_pixels) scene.pixels = trace_pixels(mesh, image, scene.camera, options.resolution);

@@ -7,11 +7,21 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <ostream>
 #include <random>
 
 #include "model/bvh.hpp"
 #include "model/mesh.hpp"
 #include "model/pairing.hpp"
+
+namespace rtu::model {
+
+/// How a test's name shows its parameter.
+inline void PrintTo(const BvhOptions& options, std::ostream* out) {
+    *out << options.width << " wide, " << options.max_leaf_pairs << " pairs a leaf";
+}
+
+}  // namespace rtu::model
 
 namespace rtu::test {
 

@@ -76,6 +76,8 @@ TEST_F(CameraFile, NamesFileAndLineOfWhatIsWrong) {
     EXPECT_THAT(error(table + "eye = [1, 2, \"x\"]\n"), HasSubstr(at(2) + "eye: expected three"));
     EXPECT_THAT(error(table + "eye = [1, 2, nan]\n"), HasSubstr(at(2) + "eye: expected three"));
     EXPECT_THAT(error(table + "eye = [1, 2, 1e300]\n"), HasSubstr(at(2) + "eye: expected three"));
+    EXPECT_THAT(error(table + "eye = [1, 2, -1.1e11]\n"), HasSubstr(at(2) + "eye: expected coordinates of"));
+    EXPECT_THAT(error(table + "target = [1.1e11, 2, 3]\n"), HasSubstr(at(2) + "target: expected coord"));
     EXPECT_THAT(error(table + "fov = 60\n"),
                 HasSubstr(at(2) + "expected eye, target, up or tan_half_fov, got 'fov'"));
     EXPECT_THAT(error(table + "eye = [1, 2, 3]\n"), HasSubstr("without the key"));

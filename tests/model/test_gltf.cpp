@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <ostream>
 #include <vector>
 
 #include "model/gltf.hpp"
@@ -193,7 +194,7 @@ TEST(Gltf, KeepsUnusedVerticesAndDegenerateTriangles) {
 TEST(Gltf, AnIdentityHierarchyLeavesEveryBitOfThePositions) {
     GltfBuilder builder;
     const std::vector<Vec3> awkward{
-        {-0.0F, 1e-45F, 3e38F}, {0.1F, -0.0F, 1.0F / 3.0F}, {-1e-20F, 7.0F, -0.0F}};
+        {-0.0F, 1e-45F, 9.9e10F}, {0.1F, -0.0F, 1.0F / 3.0F}, {-1e-20F, 7.0F, -0.0F}};
     const std::size_t positions = builder.add_positions(awkward);
     builder.add_mesh({{"attributes", {{"POSITION", positions}}}});
     builder.document["nodes"] = {
@@ -306,6 +307,8 @@ struct RealScene {
     std::size_t triangle_count;
     std::size_t vertex_count;
 };
+
+void PrintTo(const RealScene& scene, std::ostream* out) { *out << scene.file; }
 
 class GltfRealScene : public testing::TestWithParam<RealScene> {};
 

@@ -385,6 +385,23 @@ TEST(GltfErrors, ScenesWithNothingToHit) {
         "found 2 degenerate triangles only");
 }
 
+TEST(GltfErrors, ScenesTooLargeOrTooSmallForBinary32) {
+    const auto scaled = [](double factor) {
+        GltfBuilder builder = test::square();
+        builder.document["nodes"][0]["scale"] = {factor, factor, factor};
+        return builder;
+    };
+    expect_error(scaled(1.01e11), "expected coordinates of at most 1e+11");
+    expect_error(scaled(-1.01e11), "expected coordinates of at most 1e+11");
+    expect_error(scaled(3e38), "found 3e+38");
+    expect_error(scaled(0.7e-9), "expected a scene of at least 1e-09 across");
+    const TemporaryFolder folder;
+    for (const double factor : {1e11, -1e11, 0.71e-9}) {
+        const auto file = folder.write("scene.glb", scaled(factor).glb());
+        EXPECT_EQ(error_of(file), "loaded 2 triangles") << factor;
+    }
+}
+
 /// Loads what may be broken: it must load or say so in one line.
 void expect_load_or_error(const std::filesystem::path& file) {
     try {

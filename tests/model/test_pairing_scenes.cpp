@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "model/gltf.hpp"
 #include "model/pairing.hpp"
 #include "tests/model/reference_pairing.hpp"
@@ -16,6 +18,8 @@ struct SceneRow {
     const char* name;
     const char *window_index, *window_position, *bbsa_index, *bbsa_position;
 };
+
+void PrintTo(const SceneRow& row, std::ostream* out) { *out << row.name; }
 
 class PairingOfScene : public testing::TestWithParam<SceneRow> {
   protected:

@@ -169,7 +169,8 @@ TEST(ClockDomain, AccountsForEveryCycleOfEveryUnit) {
 
 class Stuck final : public ClockedUnit {
   public:
-    Stuck(sc_core::sc_module_name name, ClockDomain& domain, Cycle next) : ClockedUnit(name, domain), next_(next) {}
+    Stuck(sc_core::sc_module_name name, ClockDomain& domain, Cycle next)
+        : ClockedUnit(name, domain), next_(next) {}
     [[nodiscard]] Cycle next_event(Cycle now) const override {
         return next_ == no_cycle ? no_cycle : now + next_;
     }

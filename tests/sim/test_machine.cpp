@@ -184,7 +184,18 @@ TEST(MachineRays, ThatCannotHitPassThrough) {
 
 TEST(MachineRays, MayBeNone) {
     const auto image = test::image_of(test::triangle_soup(50, 16));
-    EXPECT_EQ(simulate({}, image, {}, RayKind::ClosestHit).cycles, 0U);
+    const MachineResult none = simulate({}, image, {}, RayKind::ClosestHit);
+    EXPECT_EQ(none.cycles, 0U);
+    // The same units and counters as with rays, so that reports keep their columns; all of them 0.
+    const MachineResult some = simulate({}, image, test::rays_into_unit_cube(1, 1), RayKind::ClosestHit);
+    ASSERT_EQ(none.units.size(), some.units.size());
+    ASSERT_EQ(none.memory.size(), some.memory.size());
+    for (std::size_t i = 0; i < none.units.size(); ++i) {
+        EXPECT_EQ(none.units[i].cycles.total(), 0U) << none.units[i].name;
+        ASSERT_EQ(none.units[i].counters.size(), some.units[i].counters.size()) << none.units[i].name;
+        for (const CounterValue& counter : none.units[i].counters)
+            EXPECT_EQ(counter.value, 0U) << counter.name;
+    }
 }
 
 TEST(MachineMemory, FootprintDecidesWhatReachesDram) {

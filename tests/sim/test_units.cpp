@@ -158,6 +158,11 @@ struct PairCase {
     std::uint32_t extra;  // cycles that its result is late
 };
 
+void PrintTo(const PairCase& c, std::ostream* out) {
+    *out << "mode " << int(c.mode) << (c.is_folded ? ", folded" : "") << ", interval " << c.ii << ", replay "
+         << c.replay;
+}
+
 class PairRate : public testing::TestWithParam<PairCase> {};
 
 TEST_P(PairRate, IsThatOfItsModeAndInterval) {
@@ -253,6 +258,7 @@ TEST(RayScheduler, AsksForTheRootOneCycleAfterItAcceptsARay) {
     EXPECT_EQ(sink.received()[0].item.source, std::uint8_t(ReplyTo::BoxUnit));
     EXPECT_EQ(in.size(), 1U);
     EXPECT_EQ(scheduler.counters().rays_accepted, 2U);
+    EXPECT_THROW(scheduler.check_drained(), std::logic_error);  // two rays are under way
 }
 
 }  // namespace
