@@ -16,7 +16,7 @@ namespace rtu::model {
     const double difference = p - q;
     const double virtual_q = p - difference;
     const double error = (p - (difference + virtual_q)) + (virtual_q - q);
-    // Rounding to odd before the second rounding makes the two the same as one (Boldo and Melquiond 2008).
+    // Rounding to odd before the second rounding makes the two the same as one [BM08].
     const auto bits = std::bit_cast<std::int64_t>(difference);
     const std::int64_t step = (error > 0.0) == (difference > 0.0) ? 1 : -1;
     const std::int64_t is_moved = std::int64_t(error != 0.0) & ~bits & 1;

@@ -30,7 +30,7 @@ namespace rtu::sim {
 /// joins the line's MSHR instead. Whatever is refused keeps its input waiting.
 ///
 /// Writes are posted and allocate without fetching: a sector is valid and dirty as a whole as soon as a write
-/// touches it (what spills the stack writes whole sectors). A replaced line sends each run of adjacent dirty
+/// touches it, in part or in whole: the model holds no data. A replaced line sends each run of adjacent dirty
 /// sectors below as one write, ahead of requests; a miss on a line that is still being written back waits.
 class Cache final : public ClockedUnit {
   public:

@@ -43,7 +43,7 @@ struct MachineResult {
 using SimulationProgress = std::function<void(double share)>;
 
 /// Builds the machine, runs all rays through it, from cold caches, and checks that nothing was lost: rays in
-/// = rays out, fetches = tests, every unit's cycles sum to `cycles`, every channel and pipeline empty. Throws
+/// = rays out, fetches = tests, every unit's cycles sum to `cycles`, the RTUs' channels empty. Throws
 /// std::logic_error when one of these is broken or the machine stops making progress. `config` must be valid.
 /// At most 2^32 - 2 rays; without any, all cycles and counters are 0. Starts a new SystemC kernel:
 /// simulations of one process run one after another.

@@ -56,8 +56,7 @@ Activity RayScheduler::tick(Cycle now) {
 
 bool RayScheduler::retire(Cycle now) {
     std::uint32_t taken = 0;
-    // The sources are asked in turn; the one that is asked first changes every cycle, so that none can
-    // starve.
+    // The one that is asked first changes whenever something was taken, so that none can starve.
     for (std::uint32_t i = 0; i < reply_channel_count; ++i) {
         const std::uint32_t source = (first_source_ + i) % reply_channel_count;
         while (taken < config_.results_per_cycle && hits_out->can_push(now)) {

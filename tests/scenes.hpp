@@ -7,8 +7,8 @@
 
 namespace rtu::test {
 
-/// A real scene's file, from the folder named by RTUSIM_SCENES or else ../shared/scenes beside the project; nothing
-/// when it is not there: skip the test with a message then.
+/// A real scene's file, from the folder named by RTUSIM_SCENES or else ../shared/scenes beside the project;
+/// nothing when it is not there: skip the test with a message then.
 inline std::optional<std::filesystem::path> scene_file(const std::string& file_name) {
     const char* folder = std::getenv("RTUSIM_SCENES");
     const std::filesystem::path path =
