@@ -20,7 +20,8 @@ TriangleMesh shuffled_sheet(std::uint32_t n) {
     std::mt19937 random(1);
     TriangleMesh mesh;
     for (std::uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
-        mesh.positions.push_back({float(i % (n + 1)), float(random() % 1000) * 0.001F, float(i / (n + 1))});
+        const std::uint32_t column = i % (n + 1), row = i / (n + 1);
+        mesh.positions.push_back({float(column), float(random() % 1000) * 0.001F, float(row)});
     }
     for (std::uint32_t y = 0; y < n; ++y) {
         for (std::uint32_t x = 0; x < n; ++x) {
@@ -37,7 +38,7 @@ TriangleMesh shuffled_sheet(std::uint32_t n) {
 
 void pair_mesh(benchmark::State& state, const TriangleMesh& mesh, PairingMethod method) {
     double paired_percent = 0;
-    for (auto _ : state) {
+    while (state.KeepRunning()) {
         const Pairing pairing = pair_triangles(mesh, method, EdgeIdentity::Position);
         benchmark::DoNotOptimize(pairing.pairs.data());
         paired_percent = pairing.paired_percent();

@@ -15,7 +15,7 @@ void simulate_scene(benchmark::State& state, const char* name, model::WorkloadKi
     const model::Workload workload =
         model::make_workload(kind, scene.mesh, scene.image, scene.camera, {256, 256}, 1);
     sim::Cycle cycles = 0;
-    for (auto _ : state) {
+    while (state.KeepRunning()) {
         cycles = sim::simulate({}, scene.image, workload.rays, workload.ray_kind).cycles;
     }
     const double runs = double(state.iterations());

@@ -26,7 +26,7 @@ void trace_reference(benchmark::State& state, const char* name, model::WorkloadK
     const BuiltScene& scene = built_scene(name);
     const auto rays = rays_of(scene, kind);
     model::Traversal scratch;
-    for (auto _ : state) {
+    while (state.KeepRunning()) {
         for (const model::Ray& ray : rays) {
             benchmark::DoNotOptimize(model::trace(scratch, scene.image, ray, model::RayKind::ClosestHit));
         }
@@ -38,7 +38,7 @@ void trace_embree(benchmark::State& state, const char* name, model::WorkloadKind
     const BuiltScene& scene = built_scene(name);
     const auto rays = rays_of(scene, kind);
     const study::EmbreeOracle embree(scene.mesh);
-    for (auto _ : state) {
+    while (state.KeepRunning()) {
         for (const model::Ray& ray : rays) {
             benchmark::DoNotOptimize(embree.trace(ray, model::RayKind::ClosestHit));
         }

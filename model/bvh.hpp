@@ -15,10 +15,9 @@ struct BvhOptions {
 };
 
 /// Builds a BVH over the pairs' boxes with Embree's binned SAH builder and lays it out as memory_image.hpp
-/// says. The pairing is consumed, so that its memory is free before the image is made. Byte-identical on
-/// every machine: the builder runs on one thread. Throws Error for no pairs or an image beyond the 16 GiB
-/// that a NodeRef can address.
-[[nodiscard]] MemoryImage build_bvh(const TriangleMesh& mesh, Pairing pairing, BvhOptions options);
+/// says. Byte-identical on every machine: the builder runs on one thread. Throws Error for no pairs or an
+/// image beyond the 16 GiB that a NodeRef can address.
+[[nodiscard]] MemoryImage build_bvh(const TriangleMesh& mesh, const Pairing& pairing, BvhOptions options);
 
 /// Checks the image against the mesh: every child box lies in its parent's box (bit-exact, no slack), every
 /// leaf's box holds its pairs' vertices, every triangle is in exactly one leaf with its file corners in its

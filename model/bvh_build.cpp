@@ -30,14 +30,14 @@ struct BuildRecord {
 };
 static_assert(sizeof(BuildRecord) % alignof(BuildRecord*) == 0);
 
-BuildRecord* allocate(RTCThreadLocalAllocator allocator, bool is_leaf, std::size_t count,
-                      std::size_t item_bytes) {
+BuildRecord* allocate(RTCThreadLocalAllocator allocator, bool is_leaf, std::size_t count) {
+    constexpr std::size_t item_bytes = sizeof(void*);  // room for either kind
     void* memory = rtcThreadLocalAlloc(allocator, sizeof(BuildRecord) + count * item_bytes, 16);
     return new (memory) BuildRecord{is_leaf, std::uint32_t(count)};
 }
 
 void* create_node(RTCThreadLocalAllocator allocator, unsigned child_count, void*) {
-    return allocate(allocator, false, child_count, sizeof(BuildRecord*));
+    return allocate(allocator, false, child_count);
 }
 
 void set_children(void* node, void** children, unsigned child_count, void*) {
@@ -50,7 +50,7 @@ void set_bounds(void*, const RTCBounds**, unsigned, void*) {}
 
 void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count,
                   void*) {
-    BuildRecord* leaf = allocate(allocator, true, count, sizeof(std::uint32_t));
+    BuildRecord* leaf = allocate(allocator, true, count);
     for (std::size_t i = 0; i < count; ++i) leaf->pairs()[i] = primitives[i].primID;
     return leaf;
 }
@@ -179,7 +179,7 @@ Aabb write_image(MemoryImage& image, const TriangleMesh& mesh, const Pairing& pa
 
 }  // namespace
 
-MemoryImage build_bvh(const TriangleMesh& mesh, Pairing pairing, BvhOptions options) {
+MemoryImage build_bvh(const TriangleMesh& mesh, const Pairing& pairing, BvhOptions options) {
     RTU_CHECK(options.width == 2 || options.width == 4 || options.width == 6 || options.width == 8,
               "BVH width {} is not 2, 4, 6 or 8", options.width);
     RTU_CHECK(options.max_leaf_pairs >= 1 && options.max_leaf_pairs <= max_leaf_pairs,

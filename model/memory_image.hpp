@@ -111,7 +111,7 @@ struct MemoryImage {
     std::uint64_t pair_count = 0;  ///< pairs and lone triangles in all leaves
 
     [[nodiscard]] static std::uint64_t node_bytes(std::uint32_t width) {
-        return (width * 28 + 4 + 63) / 64 * 64;
+        return (std::uint64_t(width) * 28 + 4 + 63) / 64 * 64;
     }
     [[nodiscard]] std::uint64_t size_bytes() const { return blocks.size() * image_block_bytes; }
     [[nodiscard]] NodeRef root() const { return NodeRef::inner(0); }

@@ -25,12 +25,14 @@ std::uint64_t round_up(std::uint64_t value, std::uint64_t to) { return (value + 
 StackRegion stack_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
     const std::uint64_t slot_bytes = round_up(
         (model::stack_capacity(image) + spill_block_entries) * stack_entry_bytes, config.l1.line_bytes);
-    return {round_up(image.size_bytes(), page_bytes) + rtu * config.rtu.ray_slots * slot_bytes, slot_bytes};
+    const std::uint64_t first_slot = std::uint64_t(rtu) * config.rtu.ray_slots;
+    return {round_up(image.size_bytes(), page_bytes) + first_slot * slot_bytes, slot_bytes};
 }
 
 template <class Counters, std::size_t N>
 std::vector<CounterValue> values(const std::array<CounterRow<Counters>, N>& rows, const Counters& counters) {
     std::vector<CounterValue> result;
+    result.reserve(N);
     for (const auto& row : rows) result.push_back({row.name, row.unit, counters.*row.member});
     return result;
 }

@@ -82,12 +82,11 @@ bool RayScheduler::retire(Cycle now) {
 // Decides what a ray does next, once its last request has been worked on.
 void RayScheduler::advance(std::uint32_t slot, Cycle now) {
     RaySlot& ray = slots_[slot];
-    if (model::is_satisfied(ray.traversal)) {
-        finish(slot, now);
-    } else if (model::pop(ray.traversal, ray.spilled)) {
+    const bool is_satisfied = model::is_satisfied(ray.traversal);
+    if (!is_satisfied && model::pop(ray.traversal, ray.spilled)) {
         while (ray.traversal.stack.size() - ray.spilled > config_.stack_entries) queue_spill(slot);
         queue_fetch(slot);
-    } else if (ray.spilled > 0) {
+    } else if (!is_satisfied && ray.spilled > 0) {
         queue_reload(slot);
     } else {
         finish(slot, now);

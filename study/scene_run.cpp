@@ -124,11 +124,11 @@ SceneReport described(const RunOptions& options) {
 // Pairs the mesh, builds the tree, proves the image right, and notes down what came out.
 model::MemoryImage build(const model::TriangleMesh& mesh, const RunOptions& options, SceneReport& scene) {
     const Stopwatch pairing_watch;
-    model::Pairing pairing = model::pair_triangles(mesh, options.pairing, options.edge_identity);
+    const model::Pairing pairing = model::pair_triangles(mesh, options.pairing, options.edge_identity);
     scene.pairing = facts(pairing, options, pairing_watch.seconds());
     const Stopwatch build_watch;
-    model::MemoryImage image = model::build_bvh(
-        mesh, std::move(pairing), {options.config.bvh.width, options.config.bvh.max_leaf_pairs});
+    model::MemoryImage image =
+        model::build_bvh(mesh, pairing, {options.config.bvh.width, options.config.bvh.max_leaf_pairs});
     scene.bvh = facts(image, build_watch.seconds());
     model::validate(image, mesh);
     return image;
