@@ -52,6 +52,7 @@ constexpr std::uint32_t digit_height = 5 * digit_scale;
 constexpr std::uint32_t digit_advance = 4 * digit_scale;
 
 constexpr std::uint32_t scale_gap = 6, scale_width = 12;
+constexpr std::uint32_t text_inset = 4;  // of the numbers from the upper and lower edge
 constexpr std::uint32_t smallest_height = 64;
 
 void draw_digit(Picture& picture, std::uint32_t left, std::uint32_t top, std::size_t digit) {
@@ -78,9 +79,9 @@ void draw_scale(Picture& picture, std::uint32_t left, std::uint32_t largest) {
         for (std::uint32_t x = 0; x < scale_width; ++x) picture.at(left + x, y) = colour;
     }
     const std::uint32_t text_left = left + scale_width + scale_gap;
-    draw_number(picture, text_left, 0, std::to_string(largest));
+    draw_number(picture, text_left, text_inset, std::to_string(largest));
     draw_number(picture, text_left, (picture.height - digit_height) / 2, std::to_string(largest / 2));
-    draw_number(picture, text_left, picture.height - digit_height, "0");
+    draw_number(picture, text_left, picture.height - digit_height - text_inset, "0");
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ Picture heat_map(const PixelData& data) {
     const auto [width, height] = data.resolution;
     const std::uint32_t largest = *std::max_element(data.box_tests.begin(), data.box_tests.end());
     const auto digits = std::uint32_t(std::to_string(largest).size());
-    const std::uint32_t margin = scale_gap + scale_width + scale_gap + digits * digit_advance;
+    const std::uint32_t margin = scale_gap + scale_width + scale_gap + digits * digit_advance + scale_gap;
     Picture picture(width + margin, std::max(height, smallest_height), background);
     for (std::uint32_t y = 0; y < height; ++y) {
         for (std::uint32_t x = 0; x < width; ++x) {
