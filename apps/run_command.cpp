@@ -126,7 +126,7 @@ int run(const RunArguments& arguments) {
         return report.check.value_or(study::CheckReport{}).is_clean();
     });
     if (is_clean) return exit_done;
-    print_error("the check found differences, please report it");
+    print_error("the check found differences: see `check` in the report");
     return exit_internal;
 }
 

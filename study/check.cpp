@@ -136,12 +136,12 @@ void HitChecker::judge(const model::Ray& ray, model::RayKind kind, const std::op
         if (!is_ours_right) ++report_.both_wrong;
     } else if (is_ours_right) {
         ++report_.ties;
-    } else if ((kind == model::RayKind::ClosestHit && hit && other &&
-                is_at_same_distance(ray, *hit, *other)) ||
-               is_right_beside(ray, kind, hit, exact)) {
-        ++report_.neighbours;
     } else {
         ++report_.embree_mismatches;
+        const bool is_neighbour =
+            (kind == model::RayKind::ClosestHit && hit && other && is_at_same_distance(ray, *hit, *other)) ||
+            is_right_beside(ray, kind, hit, exact);
+        if (is_neighbour) ++report_.neighbours;
     }
 }
 

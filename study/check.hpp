@@ -27,7 +27,8 @@ inline constexpr int neighbour_ulps = 4;
 /// neighbour if it lies on another triangle that the ray meets at Embree's distance, or is the exact answer
 /// of a ray that runs beside this one, both within `neighbour_ulps`: no binary32 test can tell on which side
 /// of an edge a ray passes, or which of two surfaces closer than that it meets first. A leak is no neighbour:
-/// beside it the surface is met. Anything else is a mismatch.
+/// beside it the surface is met. A neighbour is still a mismatch; it is counted
+/// apart as well, so that a reader can tell rounding from error.
 class HitChecker {
   public:
     HitChecker(const model::TriangleMesh& mesh, const model::MemoryImage& image)
