@@ -25,7 +25,7 @@ void report_rate(benchmark::State& state, std::size_t rays) {
 void trace_reference(benchmark::State& state, const char* name, model::WorkloadKind kind) {
     const BuiltScene& scene = built_scene(name);
     const auto rays = rays_of(scene, kind);
-    model::Traversal scratch;
+    model::TraversalStack scratch;
     while (state.KeepRunning()) {
         for (const model::Ray& ray : rays) {
             benchmark::DoNotOptimize(model::trace(scratch, scene.image, ray, model::RayKind::ClosestHit));

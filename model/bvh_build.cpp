@@ -141,10 +141,7 @@ class ImageWriter {
                     child.is_leaf ? NodeRef::leaf(next_leaf_, child.count) : NodeRef::inner(next_node_);
                 box = child.is_leaf ? write_leaf(child) : write_node(child.children());
             }
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                node.lo[axis][i] = box.lo[axis];
-                node.hi[axis][i] = box.hi[axis];
-            }
+            node.set_box(i, box);
             whole.extend(box);
         }
         return whole;

@@ -47,8 +47,7 @@ class Validator {
                   ref.address(), node.child_count);
         Aabb whole;
         for (std::uint32_t i = 0; i < node.child_count; ++i) {
-            const Aabb box{{node.lo[0][i], node.lo[1][i], node.lo[2][i]},
-                           {node.hi[0][i], node.hi[1][i], node.hi[2][i]}};
+            const Aabb box = node.box(i);
             if (node.child[i].is_leaf()) {
                 check_leaf(node.child[i], box);
             } else {

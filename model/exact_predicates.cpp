@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "model/exact_sum.hpp"
+
 namespace rtu::model {
 
 namespace {
@@ -24,39 +26,11 @@ bool is_surely_triangle(Point2 a, Point2 b, Point2 c) {
     return std::fabs(left - right) > error_factor * (std::fabs(left) + std::fabs(right));
 }
 
-struct SumAndError {
-    double sum, error;  ///< sum + error is exactly the sum of the two summands
-};
-
-SumAndError two_sum(double a, double b) {
-    const double sum = a + b;
-    const double b_part = sum - a;
-    const double a_part = sum - b_part;
-    return {sum, (a - a_part) + (b - b_part)};
-}
-
-/// Whether the doubled area a x b + b x c + c x a is exactly zero: its six products are exact in double, and
-/// they are summed without rounding into a non-overlapping expansion, which is zero only when every component
-/// is.
+/// Whether the doubled area a x b + b x c + c x a is exactly zero; its six products are exact in double.
 bool has_zero_area(Point2 a, Point2 b, Point2 c) {
     const std::array<double, 6> products{a.x * b.y,    -(a.y * b.x), b.x * c.y,
                                          -(b.y * c.x), c.x * a.y,    -(c.y * a.x)};
-    std::array<double, products.size()> expansion{};
-    for (std::size_t length = 0; length < products.size(); ++length) {
-        double carry = products[length];
-        for (std::size_t i = 0; i < length; ++i) {
-            const SumAndError s = two_sum(carry, expansion[i]);
-            expansion[i] = s.error;
-            carry = s.sum;
-        }
-        expansion[length] = carry;
-    }
-    for (const double component : expansion) {
-        if (component != 0) {
-            return false;
-        }
-    }
-    return true;
+    return ExactSum(products).value() == 0;
 }
 
 Point2 project(Vec3 p, std::size_t axis) { return {double(p[(axis + 1) % 3]), double(p[(axis + 2) % 3])}; }

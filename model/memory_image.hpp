@@ -67,10 +67,20 @@ class NodeRef {
 /// An inner node exactly as it lies in the image.
 template <std::uint32_t Width>
 struct alignas(image_block_bytes) Node {
-    std::array<std::array<float, Width>, 3> lo;  ///< [axis][child]
-    std::array<std::array<float, Width>, 3> hi;
+    std::array<std::array<std::array<float, Width>, 3>, 2> planes;  ///< [0: lo, 1: hi][axis][child]
     std::array<NodeRef, Width> child;
     std::uint32_t child_count;
+
+    [[nodiscard]] Aabb box(std::size_t i) const {
+        return {{planes[0][0][i], planes[0][1][i], planes[0][2][i]},
+                {planes[1][0][i], planes[1][1][i], planes[1][2][i]}};
+    }
+    void set_box(std::size_t i, const Aabb& box) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            planes[0][axis][i] = box.lo[axis];
+            planes[1][axis][i] = box.hi[axis];
+        }
+    }
 };
 static_assert(sizeof(Node<2>) == 64 && sizeof(Node<4>) == 128 && sizeof(Node<6>) == 192 &&
               sizeof(Node<8>) == 256);

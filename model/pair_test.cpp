@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "model/difference_of_products.hpp"
+#include "model/exact_edge.hpp"
 
 namespace rtu::model {
 
@@ -14,10 +15,10 @@ struct Sheared {
     float x, y, z;
 };
 
-// On which side of an edge the ray runs. Neither, when the edge's ends coincide in the sheared plane.
-enum class Side : std::int8_t { Negative = -1, Neither = 0, Positive = 1 };
-
-Side opposite(Side side) { return Side(-int(side)); }
+// How far corners lie from the ray's origin: largest |x| + |y|, largest |z|.
+struct Reach {
+    float across, along;
+};
 
 Sheared shear(Vec3 vertex, const RaySetup& ray) {
     const Vec3 a = vertex - ray.origin;
@@ -25,77 +26,73 @@ Sheared shear(Vec3 vertex, const RaySetup& ray) {
     return {a[ray.kx] - ray.shear_x * z, a[ray.ky] - ray.shear_y * z, z};
 }
 
-Side side_of(bool is_positive) { return is_positive ? Side::Positive : Side::Negative; }
+Reach reach(Sheared p) { return {std::abs(p.x) + std::abs(p.y), std::abs(p.z)}; }
 
-// The side of an edge that the ray meets exactly: that of the ray moved by (e, e^2). Reversing the edge
-// reverses the answer, so the two triangles at an edge never agree.
-Side resolve_tie(Sheared p, Sheared q) {
-    if (p.y != q.y) return side_of(p.y > q.y);
-    if (p.x != q.x) return side_of(q.x > p.x);
-    return Side::Neither;
+Reach larger(Reach a, Reach b) { return {std::max(a.across, b.across), std::max(a.along, b.along)}; }
+
+float edge_function(Sheared p, Sheared q) { return p.x * q.y - p.y * q.x; }
+
+// Whether the edge functions of a triangle's three sides have different signs beyond doubt. The bound on
+// their rounding errors is derived in docs/model.md; where products could overflow there is no doubt to
+// spare.
+bool is_missed(float u, float v, float w, Reach reach) {
+    constexpr float scale = 0x1p-20F, smallest = 0x1p-126F, largest = 0x1p100F;
+    const float bound =
+        scale * (reach.across + scale * reach.along) * (reach.across + reach.along) + smallest;
+    const float low = std::min(std::min(u, v), w), high = std::max(std::max(u, v), w);
+    return low < -bound && high > bound && bound < largest;
 }
 
-// The sign of px * qy - py * qx, exact. Rounding is monotone, so a non-zero binary32 difference of the
-// rounded products has it; a zero or a NaN (overflow) is decided by binary64, whose products of binary32
-// numbers are exact.
-Side edge_side(Sheared p, Sheared q) {
-    const float value = p.x * q.y - p.y * q.x;
-    if (value > 0.0F || value < 0.0F) return side_of(value > 0.0F);
-    const double exact = double(p.x) * double(q.y) - double(p.y) * double(q.x);
-    if (exact > 0.0 || exact < 0.0) return side_of(exact > 0.0);
-    return resolve_tie(p, q);
+// Exact sides of three corners as they were given. The area cannot be zero when the sides agree.
+std::optional<Hit> intersect(const std::array<Vec3, 3>& corners, CornerOrder order, const RaySetup& ray) {
+    const Line line{ray.origin, ray.direction, ray.kz};
+    const std::array<SeenPoint, 3> points{
+        SeenPoint{line, corners[0]}, {line, corners[1]}, {line, corners[2]}};
+    std::array<double, 3> weights{};
+    std::array<Side, 3> sides{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const SeenPoint &p = points[(i + 2) % 3], &q = points[(i + 1) % 3];
+        weights[i] = exact_edge_function(line, p, q);
+        sides[i] = weights[i] > 0   ? Side::Positive
+                   : weights[i] < 0 ? Side::Negative
+                                    : exact_tie(line, p.given, q.given);
+    }
+    if (sides[0] != sides[1] || sides[1] != sides[2] || sides[0] == Side::Neither) return std::nullopt;
+    const double area = weights[0] + weights[1] + weights[2];
+    const double depth = weights[0] * points[0].seen[ray.kz] + weights[1] * points[1].seen[ray.kz] +
+                         weights[2] * points[2].seen[ray.kz];
+    return Hit{float(depth / (area * double(ray.direction[ray.kz]))),
+               float(weights[order.stored_corner(1)] / area), float(weights[order.stored_corner(2)] / area)};
 }
 
-// The edge function itself, for a triangle that is pierced: rounded once, so that a needle's depth and
-// barycentrics keep their digits.
-float edge_function(Sheared p, Sheared q) { return difference_of_products(p.x, q.y, p.y, q.x); }
-
-struct Corners {
-    Sheared a, b, c;
-};
-
-// Sides of the edges opposite to the stored corners 0, 1, 2.
-struct Sides {
-    Side u, v, w;
-    [[nodiscard]] bool is_inside() const { return u == v && v == w && u != Side::Neither; }
-};
-
-bool intersect(const Corners& corners, const Sides& sides, const RaySetup& ray, float t_near,
-               CornerOrder order, Hit& hit) {
-    if (!sides.is_inside()) return false;
-    const auto& [a, b, c] = corners;
-    const std::array<float, 3> weights{edge_function(c, b), edge_function(a, c), edge_function(b, a)};
-    const float area = weights[0] + weights[1] + weights[2];
-    if (area == 0.0F) return false;
-    const float depth = (weights[0] * a.z + weights[1] * b.z + weights[2] * c.z) * ray.scale_z;
-    const float t = depth / area;
-    if (std::isnan(t)) return false;
-    hit.t = std::max(t, t_near);
-    hit.u = weights[order.stored_corner(1)] / area;
-    hit.v = weights[order.stored_corner(2)] / area;
-    return true;
+void intersect(const LeafPair& pair, std::uint32_t triangle, const RaySetup& ray, PairHits& result) {
+    if (pair.is_degenerate(triangle)) return;
+    ++result.exact_tests;
+    const auto& v = pair.vertices;
+    const auto hit = intersect({v[0], v[1 + triangle], v[2 + triangle]}, pair.corner_order(triangle), ray);
+    if (!hit) return;
+    result.is_pierced[triangle] = true;
+    result.hits[triangle] = *hit;
+    result.hits[triangle].primitive_id = pair.primitive_ids[triangle];
 }
 
 }  // namespace
 
-PairHits test_pair(const LeafPair& pair, const RaySetup& ray, float t_near) {
+PairHits test_pair(const LeafPair& pair, const RaySetup& ray) {
     const Sheared a = shear(pair.vertices[0], ray);
     const Sheared b = shear(pair.vertices[1], ray);
     const Sheared c = shear(pair.vertices[2], ray);
-    const Side common = edge_side(a, c);
+    const float common = edge_function(a, c);
+    const Reach shared = larger(reach(a), reach(c));
 
     PairHits result;
-    const Sides first{edge_side(c, b), common, edge_side(b, a)};
-    result.is_pierced[0] = !pair.is_degenerate(0) &&
-                           intersect({a, b, c}, first, ray, t_near, pair.corner_order(0), result.hits[0]);
-    result.hits[0].primitive_id = pair.primitive_ids[0];
+    if (!is_missed(edge_function(c, b), common, edge_function(b, a), larger(shared, reach(b))))
+        intersect(pair, 0, ray, result);
     if (!pair.has_second()) return result;
 
     const Sheared d = shear(pair.vertices[3], ray);
-    const Sides second{edge_side(d, c), edge_side(a, d), opposite(common)};
-    result.is_pierced[1] = !pair.is_degenerate(1) &&
-                           intersect({a, c, d}, second, ray, t_near, pair.corner_order(1), result.hits[1]);
-    result.hits[1].primitive_id = pair.primitive_ids[1];
+    if (!is_missed(edge_function(d, c), edge_function(a, d), -common, larger(shared, reach(d))))
+        intersect(pair, 1, ray, result);
     return result;
 }
 

@@ -13,17 +13,20 @@ namespace rtu::model {
 struct PairHits {
     std::array<Hit, 2> hits{};
     std::array<bool, 2> is_pierced{};
+    std::uint32_t exact_tests = 0;  ///< triangles that the first pass let through, 0 to 2
 };
 
-/// Tests a ray against the two triangles of a pair; both sides count. Watertight after Woop, Benthin and Wald
-/// 2013 [WBW13], with our tie rule: each vertex is translated and sheared once, the common edge is evaluated
-/// once, the sign of every edge function is exact and its magnitude rounded once, and a ray that runs exactly
-/// through an edge or a vertex belongs to one triangle only (the edge functions are taken at the ray moved by
-/// (e, e^2), e infinitely small, in the sheared plane, which is a top-left rule). A pair gives bit for bit
-/// what its triangles give one by one. A triangle whose edge functions sum to zero, or that is marked
-/// degenerate, is not pierced. `t_near` is where the ray enters the leaf's box: rounding may put a grazing
-/// hit in front of it, and t is then raised to it, so that the hit does not depend on the order in which
-/// boxes are visited.
-[[nodiscard]] PairHits test_pair(const LeafPair& pair, const RaySetup& ray, float t_near);
+/// Tests a ray against the two triangles of a pair; both sides count. Two passes:
+///
+/// 1. binary32, after Woop, Benthin and Wald 2013 [WBW13]: each vertex is translated and sheared once, the
+///    common edge is evaluated once, and a triangle is out when its edge functions differ in sign by more
+///    than their rounding errors. Nothing is accepted here.
+/// 2. What is left is decided exactly, on the numbers as they were given: a triangle is pierced when the ray
+///    passes its three edges on the same side, and a ray exactly through an edge or a vertex belongs to one
+///    triangle only (exact_tie()). So no closed mesh leaks or is hit twice, and a triangle that is degenerate
+///    or seen edge-on is never pierced. t, u and v are computed in binary64 and rounded once.
+///
+/// A pair gives bit for bit what its triangles give one by one.
+[[nodiscard]] PairHits test_pair(const LeafPair& pair, const RaySetup& ray);
 
 }  // namespace rtu::model

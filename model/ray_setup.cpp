@@ -8,41 +8,35 @@ namespace rtu::model {
 
 namespace {
 
-constexpr float pad_scale = 0x1p-20F;       // 16 * 2^-24 of the scene's reach: see RaySetup
-constexpr float rounding_scale = 0x1p-23F;  // covers the rounding of the moved origin itself
+// A little above 4 and 1 times the unit roundoff 2^-24: see RaySetup.
+constexpr float reach_pad = 0x1.02p-22F;
+constexpr float origin_pad = 0x1.02p-24F;
 
 std::uint8_t largest_axis(Vec3 d) {
     const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
     return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-// An axis along which the ray hardly moves has an infinite reciprocal; unless it does not move at all, the
-// product of plane distance and reciprocal would then be wrong, so the axis is taken out of the slab test.
+// An axis whose reciprocal overflows, or is too small to have all its digits, is taken out of the slab test;
+// one along which the ray does not move at all stays, with an infinite reciprocal.
 float reciprocal(float direction) {
     const float inverse = 1.0F / direction;
-    return std::isinf(inverse) && direction != 0.0F ? std::numeric_limits<float>::quiet_NaN() : inverse;
-}
-
-// Largest distance, over the axes, from the origin to a plane of the scene's box.
-float reach(Vec3 origin, const Aabb& bounds) {
-    float result = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        result = std::max(
-            {result, std::abs(bounds.lo[axis] - origin[axis]), std::abs(bounds.hi[axis] - origin[axis])});
-    }
-    return result;
+    return std::isnormal(inverse) || direction == 0.0F ? inverse : std::numeric_limits<float>::quiet_NaN();
 }
 
 }  // namespace
 
-std::optional<RaySetup> make_ray_setup(const Ray& ray, const Aabb& bounds) {
-    const Vec3 d = ray.direction;
-    // Written so that a NaN in the interval fails it.
-    if (!is_finite(ray.origin) || !is_finite(d) || d == Vec3{} || !(ray.t_min < ray.t_max))
-        return std::nullopt;
+bool can_hit(const Ray& ray) {
+    // A NaN in the interval fails the comparison.
+    return is_finite(ray.origin) && is_finite(ray.direction) && ray.direction != Vec3{} &&
+           ray.t_min < ray.t_max;
+}
 
+RaySetup make_ray_setup(const Ray& ray, const Aabb& bounds) {
+    const Vec3 d = ray.direction;
     RaySetup setup;
     setup.origin = ray.origin;
+    setup.direction = d;
     setup.t_min = ray.t_min;
     setup.t_max = ray.t_max;
     setup.kz = largest_axis(d);
@@ -50,14 +44,14 @@ std::optional<RaySetup> make_ray_setup(const Ray& ray, const Aabb& bounds) {
     setup.ky = std::uint8_t((setup.kz + 2) % 3);
     setup.shear_x = d[setup.kx] / d[setup.kz];
     setup.shear_y = d[setup.ky] / d[setup.kz];
-    setup.scale_z = 1.0F / d[setup.kz];
 
-    const float scene_pad = reach(ray.origin, bounds) * pad_scale;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         setup.inv_direction[axis] = reciprocal(d[axis]);
-        setup.is_negative[axis] = std::signbit(d[axis]);
-        const float pad = scene_pad + std::abs(ray.origin[axis]) * rounding_scale;
-        const float towards = setup.is_negative[axis] ? -pad : pad;
+        setup.entry_side[axis] = std::signbit(d[axis]) ? 1 : 0;
+        const float o = ray.origin[axis];
+        const float reach = std::max(std::abs(bounds.lo[axis] - o), std::abs(bounds.hi[axis] - o));
+        const float pad = reach * reach_pad + std::abs(o) * origin_pad;
+        const float towards = std::signbit(d[axis]) ? -pad : pad;
         setup.origin_near[axis] = ray.origin[axis] + towards;
         setup.origin_far[axis] = ray.origin[axis] - towards;
     }

@@ -16,42 +16,56 @@ struct SlabHits {
     std::uint32_t mask = 0;  ///< bit i: the ray meets child i within [t_min, t_end]
 };
 
-/// Slab test of children [First, First + N) of a node; see slab_test.
-template <std::uint32_t First, std::uint32_t N, std::uint32_t Width>
-inline void slab_test_lanes(const Node<Width>& node, const RaySetup& ray, float t_end,
-                            SlabHits<Width>& hits) {
-    Lanes<N> t_near = Lanes<N>{} + ray.t_min;
-    Lanes<N> t_far = Lanes<N>{} + t_end;
+/// What the slab test needs of a ray, in every lane.
+template <std::uint32_t N>
+struct SlabRay {
+    explicit SlabRay(const RaySetup& ray) : t_min(all_lanes<N>(ray.t_min)), entry_side(ray.entry_side) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            origin_near[axis] = all_lanes<N>(ray.origin_near[axis]);
+            origin_far[axis] = all_lanes<N>(ray.origin_far[axis]);
+            inv_direction[axis] = all_lanes<N>(ray.inv_direction[axis]);
+        }
+    }
+    std::array<Lanes<N>, 3> origin_near, origin_far, inv_direction;
+    Lanes<N> t_min;
+    std::array<std::uint32_t, 3> entry_side;
+};
+
+/// Lanes that one step of the slab test works on.
+template <std::uint32_t Width>
+inline constexpr std::uint32_t slab_lanes = Width == 2 ? 2 : 4;
+
+/// Slab test of the children from `First` on, as many as there are lanes; see slab_test.
+template <std::uint32_t First, std::uint32_t Width>
+inline void slab_test_from(const Node<Width>& node, const SlabRay<slab_lanes<Width>>& ray, float t_end,
+                           SlabHits<Width>& hits) {
+    constexpr std::uint32_t n = slab_lanes<Width>;
+    Lanes<n> t_near = ray.t_min;
+    Lanes<n> t_far = all_lanes<n>(t_end);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Lanes<N> lo = load_lanes<N>(&node.lo[axis][First]);
-        const Lanes<N> hi = load_lanes<N>(&node.hi[axis][First]);
-        const Lanes<N> near =
-            ((ray.is_negative[axis] ? hi : lo) - ray.origin_near[axis]) * ray.inv_direction[axis];
-        const Lanes<N> far =
-            ((ray.is_negative[axis] ? lo : hi) - ray.origin_far[axis]) * ray.inv_direction[axis];
+        const std::uint32_t entry = ray.entry_side[axis];
+        const Lanes<n> near_plane = load_lanes<n>(&node.planes[entry][axis][First]);
+        const Lanes<n> far_plane = load_lanes<n>(&node.planes[1 - entry][axis][First]);
+        const Lanes<n> near = (near_plane - ray.origin_near[axis]) * ray.inv_direction[axis];
+        const Lanes<n> far = (far_plane - ray.origin_far[axis]) * ray.inv_direction[axis];
         // Written so that a NaN leaves t_near and t_far as they are.
         t_near = near > t_near ? near : t_near;
         t_far = far < t_far ? far : t_far;
     }
-    store_lanes<N>(t_near, &hits.t_near[First]);
-    const auto is_hit = t_near <= t_far;
-    for (std::uint32_t i = 0; i < N; ++i) hits.mask |= std::uint32_t(is_hit[i] & 1) << (First + i);
+    store_lanes<n>(t_near, &hits.t_near[First]);
+    hits.mask |= mask_of<n>(t_near <= t_far) << First;
 }
 
 /// Slab test of all children of a node against one ray. Conservative: it keeps every box that holds a
-/// triangle which the pair test accepts with t <= t_end. An axis that gives NaN (origin on a plane of a slab
-/// that the ray runs along) culls nothing. t_near does not decrease from a box to any box inside it: every
-/// operation on the way is monotone.
+/// triangle which the pair test accepts with t <= t_end, and its t_near is not above that t. An axis that
+/// gives NaN (origin on a plane of a slab that the ray runs along) culls nothing.
 template <std::uint32_t Width>
-[[nodiscard]] inline SlabHits<Width> slab_test(const Node<Width>& node, const RaySetup& ray, float t_end) {
+[[nodiscard]] inline SlabHits<Width> slab_test(const Node<Width>& node, const SlabRay<slab_lanes<Width>>& ray,
+                                               float t_end) {
     SlabHits<Width> hits;
-    if constexpr (Width == 2) {
-        slab_test_lanes<0, 2>(node, ray, t_end, hits);
-    } else {
-        slab_test_lanes<0, 4>(node, ray, t_end, hits);
-        if constexpr (Width == 6) slab_test_lanes<4, 2>(node, ray, t_end, hits);
-        if constexpr (Width == 8) slab_test_lanes<4, 4>(node, ray, t_end, hits);
-    }
+    slab_test_from<0>(node, ray, t_end, hits);
+    // Of six children, the second step does two once more.
+    if constexpr (Width > 4) slab_test_from<Width - 4>(node, ray, t_end, hits);
     hits.mask &= (1U << node.child_count) - 1U;
     return hits;
 }

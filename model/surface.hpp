@@ -19,7 +19,7 @@ struct SurfacePoint {
 
 /// The start of the secondary rays of a hit. The hit point is interpolated from the corners, whose rounding
 /// does not grow with the distance that the ray came, and moved along the geometric normal by 2^-19 of the
-/// largest coordinate: 32 units of the rounding that interpolation (7, [PBR] 6.8) and the pair test (about 6)
+/// largest coordinate: 32 units of the rounding that interpolation (7, [PBR] 6.8) and the rounding of u and v
 /// can make together. Nothing for a triangle without area.
 [[nodiscard]] std::optional<SurfacePoint> surface_point(const TriangleMesh& mesh, const Hit& hit,
                                                         Vec3 ray_direction);

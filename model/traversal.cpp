@@ -11,13 +11,28 @@ namespace rtu::model {
 
 namespace {
 
+// Calls `f` with the tree's width as a constant.
+template <class F>
+auto with_width(const MemoryImage& image, F f) {
+    switch (image.width) {
+        case 2:
+            return f.template operator()<2>();
+        case 4:
+            return f.template operator()<4>();
+        case 6:
+            return f.template operator()<6>();
+        default:
+            return f.template operator()<8>();
+    }
+}
+
 // Pushes the children that the ray enters so that the nearest lies on top, and of equally near ones the
-// lowest index.
+// lowest index. Returns the number of boxes tested.
 template <std::uint32_t Width>
-std::uint32_t visit(Traversal& traversal, const MemoryImage& image) {
-    const Node<Width>& node = image.node<Width>(traversal.current.ref);
-    const SlabHits<Width> hits = slab_test(node, traversal.ray, traversal.best.t);
-    TraversalStack& stack = traversal.stack;
+[[gnu::always_inline]] inline std::uint32_t push_children(const Node<Width>& node,
+                                                          const SlabRay<slab_lanes<Width>>& ray, float t_end,
+                                                          TraversalStack& stack) {
+    const SlabHits<Width> hits = slab_test(node, ray, t_end);
     const std::size_t base = stack.size();
     for (std::uint32_t mask = hits.mask; mask != 0; mask &= mask - 1) {
         const auto child = std::uint32_t(std::countr_zero(mask));
@@ -31,50 +46,45 @@ std::uint32_t visit(Traversal& traversal, const MemoryImage& image) {
     return node.child_count;
 }
 
-bool is_better(const Hit& hit, const Traversal& traversal) {
-    if (!(hit.t > traversal.ray.t_min)) return false;
-    if (hit.t < traversal.best.t) return true;
-    return traversal.has_hit && hit.t == traversal.best.t && hit.primitive_id < traversal.best.primitive_id;
+bool is_better(const Hit& hit, float t_min, const Closest& closest) {
+    if (!(hit.t > t_min)) return false;
+    if (hit.t < closest.hit.t) return true;
+    return closest.is_found && hit.t == closest.hit.t && hit.primitive_id < closest.hit.primitive_id;
 }
 
-PairVisit visit(Traversal& traversal, const LeafPair& pair) {
-    const PairHits found = test_pair(pair, traversal.ray, traversal.current.t_near);
-    PairVisit visit{.triangle_tests = pair.has_second() ? 2U : 1U};
+PairVisit update_closest(Closest& closest, const LeafPair& pair, const RaySetup& ray) {
+    const PairHits found = test_pair(pair, ray);
     for (std::size_t i = 0; i < 2; ++i) {
-        if (!found.is_pierced[i]) continue;
-        ++visit.pierced;
-        if (is_better(found.hits[i], traversal)) {
-            traversal.best = found.hits[i];
-            traversal.has_hit = true;
-        }
+        if (found.is_pierced[i] && is_better(found.hits[i], ray.t_min, closest))
+            closest = {found.hits[i], true};
     }
-    return visit;
+    return {pair.has_second() ? 2U : 1U, found.exact_tests};
 }
 
-bool pop_relevant(Traversal& traversal, std::size_t floor) {
-    TraversalStack& stack = traversal.stack;
-    while (stack.size() > floor) {
-        traversal.current = stack.pop();
-        if (traversal.current.t_near <= traversal.best.t) return true;
-    }
-    return false;
-}
-
-// The whole traversal of a ray that has been started, with the tree's width known to the compiler.
+// The whole traversal of one ray, with the tree's width known to the compiler and the ray's constants in
+// registers.
 template <std::uint32_t Width>
-void run(Traversal& traversal, const MemoryImage& image, TraversalCounts& counts) {
-    do {
-        const NodeRef ref = traversal.current.ref;
-        if (ref.is_leaf()) {
-            for (std::uint32_t i = 0; i < ref.pair_count() && !is_satisfied(traversal); ++i) {
-                counts.triangle_tests += visit(traversal, image.leaf_pair(ref, i)).triangle_tests;
-                ++counts.pair_tests;
-            }
-        } else {
-            counts.box_tests += visit<Width>(traversal, image);
+Closest run(const MemoryImage& image, const RaySetup& ray, RayKind kind, TraversalStack& stack,
+            TraversalCounts& counts) {
+    const SlabRay<slab_lanes<Width>> slab_ray(ray);
+    Closest closest{Hit{.t = ray.t_max}};
+    const auto is_done = [&] { return kind == RayKind::AnyHit && closest.is_found; };
+    stack.push({image.root(), ray.t_min});
+    while (stack.size() > 0 && !is_done()) {
+        const StackEntry current = stack.pop();
+        if (current.t_near > closest.hit.t) continue;
+        if (!current.ref.is_leaf()) {
+            counts.box_tests += push_children(image.node<Width>(current.ref), slab_ray, closest.hit.t, stack);
             ++counts.node_visits;
+            continue;
         }
-    } while (!is_satisfied(traversal) && pop_relevant(traversal, 0));
+        for (std::uint32_t i = 0; i < current.ref.pair_count() && !is_done(); ++i) {
+            const PairVisit visit = update_closest(closest, image.leaf_pair(current.ref, i), ray);
+            counts.triangle_tests += visit.triangle_tests;
+            ++counts.pair_tests;
+        }
+    }
+    return closest;
 }
 
 }  // namespace
@@ -85,74 +95,54 @@ std::size_t stack_capacity(const MemoryImage& image) {
 }
 
 bool start(Traversal& traversal, const MemoryImage& image, const Ray& ray, RayKind kind) {
-    const auto setup = make_ray_setup(ray, image.bounds);
-    traversal.has_hit = false;
-    traversal.best = Hit{.t = ray.t_max};
     traversal.kind = kind;
+    traversal.closest = {Hit{.t = ray.t_max}};
     traversal.stack.reset(stack_capacity(image));
-    if (!setup) return false;
-    traversal.ray = *setup;
+    if (!can_hit(ray)) return false;
+    traversal.ray = make_ray_setup(ray, image.bounds);
     traversal.current = {image.root(), ray.t_min};
     return true;
 }
 
 std::uint32_t child_count(const MemoryImage& image, NodeRef ref) {
-    switch (image.width) {
-        case 2:
-            return image.node<2>(ref).child_count;
-        case 4:
-            return image.node<4>(ref).child_count;
-        case 6:
-            return image.node<6>(ref).child_count;
-        default:
-            return image.node<8>(ref).child_count;
-    }
+    return with_width(image, [&]<std::uint32_t Width>() { return image.node<Width>(ref).child_count; });
 }
 
 std::uint32_t visit_node(Traversal& traversal, const MemoryImage& image) {
-    switch (image.width) {
-        case 2:
-            return visit<2>(traversal, image);
-        case 4:
-            return visit<4>(traversal, image);
-        case 6:
-            return visit<6>(traversal, image);
-        default:
-            return visit<8>(traversal, image);
-    }
+    return with_width(image, [&]<std::uint32_t Width>() {
+        return push_children(image.node<Width>(traversal.current.ref),
+                             SlabRay<slab_lanes<Width>>(traversal.ray), traversal.closest.hit.t,
+                             traversal.stack);
+    });
 }
 
 PairVisit visit_pair(Traversal& traversal, const MemoryImage& image, std::uint32_t index) {
-    return visit(traversal, image.leaf_pair(traversal.current.ref, index));
+    return update_closest(traversal.closest, image.leaf_pair(traversal.current.ref, index), traversal.ray);
 }
 
-bool pop(Traversal& traversal, std::size_t floor) { return pop_relevant(traversal, floor); }
-
-std::optional<Hit> trace(Traversal& scratch, const MemoryImage& image, const Ray& ray, RayKind kind,
-                         TraversalCounts* counts) {
-    TraversalCounts mine;
-    if (start(scratch, image, ray, kind)) {
-        switch (image.width) {
-            case 2:
-                run<2>(scratch, image, mine);
-                break;
-            case 4:
-                run<4>(scratch, image, mine);
-                break;
-            case 6:
-                run<6>(scratch, image, mine);
-                break;
-            default:
-                run<8>(scratch, image, mine);
-        }
+bool pop(Traversal& traversal, std::size_t floor) {
+    while (traversal.stack.size() > floor) {
+        traversal.current = traversal.stack.pop();
+        if (traversal.current.t_near <= traversal.closest.hit.t) return true;
     }
+    return false;
+}
+
+std::optional<Hit> trace(TraversalStack& stack, const MemoryImage& image, const Ray& ray, RayKind kind,
+                         TraversalCounts* counts) {
+    if (!can_hit(ray)) return std::nullopt;
+    stack.reset(stack_capacity(image));
+    TraversalCounts mine;
+    const RaySetup setup = make_ray_setup(ray, image.bounds);
+    const Closest closest =
+        with_width(image, [&]<std::uint32_t Width>() { return run<Width>(image, setup, kind, stack, mine); });
     if (counts != nullptr) *counts += mine;
-    return scratch.has_hit ? std::optional(scratch.best) : std::nullopt;
+    return closest.is_found ? std::optional(closest.hit) : std::nullopt;
 }
 
 std::optional<Hit> trace(const MemoryImage& image, const Ray& ray, RayKind kind, TraversalCounts* counts) {
-    Traversal scratch;
-    return trace(scratch, image, ray, kind, counts);
+    TraversalStack stack;
+    return trace(stack, image, ray, kind, counts);
 }
 
 }  // namespace rtu::model

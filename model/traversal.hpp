@@ -52,12 +52,17 @@ class TraversalStack {
     std::size_t size_ = 0;
 };
 
-/// One ray under way.
+/// The nearest hit so far.
+struct Closest {
+    Hit hit;  ///< hit.t = t_max until something is hit
+    bool is_found = false;
+};
+
+/// One ray under way, for a machine that takes it step by step.
 struct Traversal {
     RaySetup ray;
     RayKind kind = RayKind::ClosestHit;
-    Hit best;  ///< best.t = t_max until something is hit
-    bool has_hit = false;
+    Closest closest;
     StackEntry current;
     TraversalStack stack;
 };
@@ -77,30 +82,31 @@ struct Traversal {
 /// among equal distances the lower child index is visited first. Returns the number of boxes tested.
 std::uint32_t visit_node(Traversal& traversal, const MemoryImage& image);
 
-/// What one pair test found: how many of the pair's triangles the ray's line pierces (0, 1; 2 for a folded
-/// pair).
+/// What one pair test took.
 struct PairVisit {
     std::uint32_t triangle_tests = 0;
-    std::uint32_t pierced = 0;
+    std::uint32_t exact_tests = 0;  ///< of those, what the first pass let through: see test_pair()
 };
 
 /// Tests pair `index` of `current` (a leaf) and keeps the nearer hit; of equal t the lowest primitive id
 /// wins.
 PairVisit visit_pair(Traversal& traversal, const MemoryImage& image, std::uint32_t index);
 
-/// Pops entries until one can still matter (it starts no farther than the best hit) and makes it `current`;
-/// entries at or below `floor` stay. False when none is left above `floor`.
+/// Pops entries until one can still matter (it starts no farther than the closest hit) and makes it
+/// `current`; entries at or below `floor` stay. False when none is left above `floor`.
 [[nodiscard]] bool pop(Traversal& traversal, std::size_t floor = 0);
 
 /// True when an any-hit ray has its answer.
-[[nodiscard]] inline bool is_satisfied(const Traversal& t) { return t.kind == RayKind::AnyHit && t.has_hit; }
+[[nodiscard]] inline bool is_satisfied(const Traversal& t) {
+    return t.kind == RayKind::AnyHit && t.closest.is_found;
+}
 
 /// The reference traversal: the hit of one ray, or nothing. Adds what it did to `counts` when given.
 [[nodiscard]] std::optional<Hit> trace(const MemoryImage& image, const Ray& ray, RayKind kind,
                                        TraversalCounts* counts = nullptr);
 
-/// The same, reusing `scratch` for the stack: for many rays on one thread.
-[[nodiscard]] std::optional<Hit> trace(Traversal& scratch, const MemoryImage& image, const Ray& ray,
+/// The same, reusing a stack: for many rays on one thread.
+[[nodiscard]] std::optional<Hit> trace(TraversalStack& stack, const MemoryImage& image, const Ray& ray,
                                        RayKind kind, TraversalCounts* counts = nullptr);
 
 }  // namespace rtu::model

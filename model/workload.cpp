@@ -75,7 +75,7 @@ std::optional<Ray> secondary_ray(const Setting& setting, WorkloadKind kind, std:
 }
 
 std::optional<Ray> make_ray(const Setting& setting, WorkloadKind kind, std::uint32_t pixel,
-                            Traversal& scratch) {
+                            TraversalStack& scratch) {
     if (kind == WorkloadKind::Random) return random_ray(setting, pixel);
     const Ray primary = pixel_ray(setting, pixel);
     if (kind == WorkloadKind::Primary) return primary;
@@ -109,7 +109,7 @@ Workload make_workload(WorkloadKind kind, const TriangleMesh& mesh, const Memory
     const std::uint32_t pixel_count = resolution.width * resolution.height;
     std::vector<std::optional<Ray>> rays(pixel_count);
     for_each_range<std::uint32_t>(pixel_count, 256, [&](const auto& range) {
-        Traversal scratch;
+        TraversalStack scratch;
         for (std::uint32_t pixel = range.begin(); pixel != range.end(); ++pixel) {
             rays[pixel] = make_ray(setting, kind, pixel, scratch);
         }

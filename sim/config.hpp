@@ -8,8 +8,8 @@ namespace rtu::sim {
 enum class PairMode : std::uint8_t {
     Single,           ///< one triangle an issue: a pair takes two
     DualIndependent,  ///< two complete testers: a pair is one issue
-    DualShared,  ///< common-edge arithmetic and one depth unit shared: a folded pair that is pierced twice
-                 ///< replays
+    DualShared,  ///< common-edge arithmetic and the unit of the exact pass shared: a pair that needs the pass
+                 ///< twice, mostly a folded one, replays
 };
 
 /// Every hardware number of the machine. Meaning, unit, range and the default's source of each field are in

@@ -47,6 +47,7 @@ struct PairCounters {
     std::uint64_t leaf_visits = 0;
     std::uint64_t pair_tests = 0;
     std::uint64_t triangle_tests = 0;
+    std::uint64_t exact_tests = 0;
     std::uint64_t replays = 0;
     std::uint64_t tester_cycles = 0;
     friend bool operator==(const PairCounters&, const PairCounters&) = default;
@@ -56,7 +57,8 @@ inline constexpr std::array pair_counter_rows = std::to_array<CounterRow<PairCou
     {"leaf_visits", "leaves", "leaves tested", &PairCounters::leaf_visits},
     {"pair_tests", "tests", "pairs and lone triangles tested", &PairCounters::pair_tests},
     {"triangle_tests", "tests", "triangles in them", &PairCounters::triangle_tests},
-    {"replays", "replays", "folded pairs pierced twice with one depth unit", &PairCounters::replays},
+    {"exact_tests", "tests", "of those, left to the exact pass", &PairCounters::exact_tests},
+    {"replays", "replays", "pairs with two exact tests and one unit for them", &PairCounters::replays},
     {"tester_cycles", "cycles", "cycles that testers were held, over all testers",
      &PairCounters::tester_cycles},
 });

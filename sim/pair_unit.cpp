@@ -69,8 +69,9 @@ std::uint32_t PairUnit::test_leaf(RaySlot& slot) {
         const model::PairVisit visit = model::visit_pair(slot.traversal, image_, i);
         ++counters_.pair_tests;
         counters_.triangle_tests += visit.triangle_tests;
+        counters_.exact_tests += visit.exact_tests;
         held += config_.ii_cycles * (config_.mode == PairMode::Single ? visit.triangle_tests : 1U);
-        if (config_.mode == PairMode::DualShared && visit.pierced == 2) {
+        if (config_.mode == PairMode::DualShared && visit.exact_tests == 2) {
             ++counters_.replays;
             held += config_.replay_cycles;
         }

@@ -16,8 +16,9 @@
 namespace rtu::sim {
 
 /// Tests the pairs of fetched leaves. Each of `testers` takes one leaf at a time and holds it for `ii_cycles`
-/// an issue: one issue a pair, or one a triangle in mode `single`; in mode `dual_shared` a folded pair of
-/// which both triangles are pierced takes `replay_cycles` more, because there is one depth unit. A result
+/// an issue: one issue a pair, or one a triangle in mode `single`; in mode `dual_shared` a pair both of
+/// whose triangles need the exact pass (model::test_pair) takes `replay_cycles` more, because one unit does
+/// that pass. A result
 /// leaves `latency_cycles` after the last issue began, and that begins later by all replays before its end.
 class PairUnit final : public ClockedUnit {
   public:

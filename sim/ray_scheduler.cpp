@@ -95,7 +95,7 @@ void RayScheduler::advance(std::uint32_t slot, Cycle now) {
 
 void RayScheduler::finish(std::uint32_t slot, Cycle now) {
     const RaySlot& ray = slots_[slot];
-    hits_out->push(now, {ray.ray_index, ray.traversal.has_hit, ray.traversal.best});
+    hits_out->push(now, {ray.ray_index, ray.traversal.closest.is_found, ray.traversal.closest.hit});
     ++counters_.rays_finished;
     counters_.slot_cycles += now - ray.accepted_cycle;
     free_slots_.push_back(slot);

@@ -30,12 +30,6 @@ T triple(const Vector<T>& a, const Vector<T>& b, const Vector<T>& c) {
              a[2] * (b[0] * c[1] - b[1] * c[0]));
 }
 
-// A ray whose origin is moved.
-struct Probe {
-    const model::Ray& ray;
-    const Vector<double>& shift;
-};
-
 // Signed volumes that the ray's direction spans with the triangle's edges, all seen from the origin.
 template <class T>
 struct Volumes {
@@ -44,17 +38,14 @@ struct Volumes {
 };
 
 template <class T>
-Volumes<T> volumes(const model::TriangleMesh& mesh, const model::Triangle& triangle, const Probe& probe) {
-    const auto origin = widen<T>(probe.ray.origin);
-    const Vector<T> shift{T(probe.shift[0]), T(probe.shift[1]), T(probe.shift[2])};
-    const auto seen = [&](std::uint32_t vertex) {
-        return minus(minus(widen<T>(mesh.positions[vertex]), origin), shift);
-    };
+Volumes<T> volumes(const model::TriangleMesh& mesh, const model::Triangle& triangle, const model::Ray& ray) {
+    const auto origin = widen<T>(ray.origin);
+    const auto seen = [&](std::uint32_t vertex) { return minus(widen<T>(mesh.positions[vertex]), origin); };
     Volumes<T> r;
     r.a = seen(triangle[0]);
     r.b = seen(triangle[1]);
     r.c = seen(triangle[2]);
-    r.d = widen<T>(probe.ray.direction);
+    r.d = widen<T>(ray.direction);
     r.u = triple(r.d, r.c, r.b);
     r.v = triple(r.d, r.a, r.c);
     r.w = triple(r.d, r.b, r.a);
@@ -64,8 +55,8 @@ Volumes<T> volumes(const model::TriangleMesh& mesh, const model::Triangle& trian
 double largest(const Vector<double>& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
 
 // False only when binary64, with a generous bound on its error, is sure that the ray passes outside.
-bool may_hit(const model::TriangleMesh& mesh, const model::Triangle& triangle, const Probe& probe) {
-    const auto r = volumes<double>(mesh, triangle, probe);
+bool may_hit(const model::TriangleMesh& mesh, const model::Triangle& triangle, const model::Ray& ray) {
+    const auto r = volumes<double>(mesh, triangle, ray);
     const double reach = std::max({largest(r.a), largest(r.b), largest(r.c)});
     const double bound = reach * reach * largest(r.d) * 1e-14;
     const bool has_positive = r.u > bound || r.v > bound || r.w > bound;
@@ -79,9 +70,8 @@ struct ExactHit {
 };
 
 std::optional<ExactHit> intersect(const model::TriangleMesh& mesh, const model::Triangle& triangle,
-                                  const Probe& probe) {
-    const auto r = volumes<Rational>(mesh, triangle, probe);
-    const model::Ray& ray = probe.ray;
+                                  const model::Ray& ray) {
+    const auto r = volumes<Rational>(mesh, triangle, ray);
     const bool has_positive = r.u > 0 || r.v > 0 || r.w > 0;
     const bool has_negative = r.u < 0 || r.v < 0 || r.w < 0;
     const Rational sum = r.u + r.v + r.w;
@@ -103,14 +93,12 @@ bool ExactHits::allows_closest(std::optional<std::uint32_t> answer) const {
 
 bool ExactHits::allows_any(bool answer) const { return answer ? !nearest.empty() : !has_interior_hit; }
 
-ExactHits exact_hits(const model::TriangleMesh& mesh, const model::Ray& ray,
-                     const std::array<double, 3>& shift) {
-    const Probe probe{ray, shift};
+ExactHits exact_hits(const model::TriangleMesh& mesh, const model::Ray& ray) {
     ExactHits result;
     std::optional<Rational> least;
     for (std::uint32_t id = 0; id < mesh.triangles.size(); ++id) {
-        if (!may_hit(mesh, mesh.triangles[id], probe)) continue;
-        const auto hit = intersect(mesh, mesh.triangles[id], probe);
+        if (!may_hit(mesh, mesh.triangles[id], ray)) continue;
+        const auto hit = intersect(mesh, mesh.triangles[id], ray);
         if (!hit) continue;
         result.has_interior_hit |= hit->is_interior;
         if (!least || hit->t < *least) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,9 +25,7 @@ struct ExactHits {
     [[nodiscard]] bool allows_any(bool answer) const;
 };
 
-/// Tests every triangle of the mesh: slow, for the few rays on which two faster tests disagree. The ray's
-/// origin is moved by `shift` first, which may be too little for its own floats to tell.
-[[nodiscard]] ExactHits exact_hits(const model::TriangleMesh& mesh, const model::Ray& ray,
-                                   const std::array<double, 3>& shift = {});
+/// Tests every triangle of the mesh: slow, for the few rays on which two faster tests disagree.
+[[nodiscard]] ExactHits exact_hits(const model::TriangleMesh& mesh, const model::Ray& ray);
 
 }  // namespace rtu::study

@@ -12,7 +12,7 @@ PixelData trace_pixels(const model::TriangleMesh& mesh, const model::MemoryImage
     PixelData data{resolution, std::vector<std::optional<model::Vec3>>(count),
                    std::vector<std::uint32_t>(count)};
     model::for_each_range<std::uint32_t>(count, 256, [&](const auto& range) {
-        model::Traversal scratch;
+        model::TraversalStack scratch;
         for (std::uint32_t pixel = range.begin(); pixel != range.end(); ++pixel) {
             const model::Ray ray =
                 camera_ray(camera, resolution, pixel % resolution.width, pixel / resolution.width);

@@ -125,8 +125,7 @@ Json json(const CheckReport& check) {
             {"embree_mismatches", check.embree_mismatches},
             {"embree_wrong", check.embree_wrong},
             {"both_wrong", check.both_wrong},
-            {"ties", check.ties},
-            {"neighbours", check.neighbours}};
+            {"ties", check.ties}};
 }
 
 Json json(const SceneReport& report) {

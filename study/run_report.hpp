@@ -86,8 +86,6 @@ struct CheckReport {
     std::uint64_t embree_wrong = 0;       ///< differences in which the exact test finds Embree wrong
     std::uint64_t both_wrong = 0;  ///< of those, in which the simulated hit is not the exact one either
     std::uint64_t ties = 0;        ///< another triangle, and the exact test allows both
-    std::uint64_t neighbours =
-        0;  ///< of embree_mismatches, those below binary32's resolution: see HitChecker
     [[nodiscard]] bool is_clean() const { return mismatches == 0 && embree_mismatches == 0; }
 };
 

@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <boost/multiprecision/gmp.hpp>
 #include <cmath>
 #include <limits>
 
+#include "exact_reference.hpp"
 #include "meshes.hpp"
-#include "model/difference_of_products.hpp"
 #include "model/pair_test.hpp"
 #include "model/ray_setup.hpp"
 
@@ -23,14 +22,14 @@ LeafPair lone(const TriangleMesh& mesh, std::uint32_t id) {
 }
 
 RaySetup setup(Vec3 origin, Vec3 direction, const Aabb& box) {
-    return *make_ray_setup({origin, 0, direction, infinity}, box);
+    return make_ray_setup({origin, 0, direction, infinity}, box);
 }
 
 // How many triangles of the mesh the ray pierces in front of its origin: tested one by one, no BVH.
 int count_hits(const std::vector<LeafPair>& leaves, const RaySetup& ray) {
     int hits = 0;
     for (const LeafPair& leaf : leaves) {
-        const PairHits found = test_pair(leaf, ray, -infinity);
+        const PairHits found = test_pair(leaf, ray);
         hits += found.is_pierced[0] && found.hits[0].t > 0 ? 1 : 0;
     }
     return hits;
@@ -44,33 +43,9 @@ std::vector<LeafPair> all_lone(const TriangleMesh& mesh) {
 
 const TriangleMesh one_triangle{"one", {{0, 0, 5}, {4, 0, 5}, {0, 4, 5}}, {{0, 1, 2}}};
 
-// Against rational arithmetic: every result is the exact difference, rounded once.
-TEST(DifferenceOfProducts, IsRoundedOnce) {
-    Random random(11);
-    const auto pick = [&] {
-        const float mantissa = random.uniform(-1, 1);
-        return std::ldexp(mantissa, int(random.below(40)) - 20);
-    };
-    using Exact = boost::multiprecision::mpq_rational;
-    for (int i = 0; i < 200'000; ++i) {
-        const float a = pick(), b = pick(), c = i % 3 == 0 ? a : pick(),
-                    d = i % 3 == 0 ? std::nextafter(b, 9.0F) : pick();
-        const float result = difference_of_products(a, b, c, d);
-        const Exact exact = Exact(double(a)) * Exact(double(b)) - Exact(double(c)) * Exact(double(d));
-        const auto distance = [&](float x) {
-            const Exact error = Exact(double(x)) - exact;
-            return error < 0 ? Exact(-error) : error;
-        };
-        ASSERT_LE(distance(result), distance(std::nextafter(result, 1e30F)));
-        ASSERT_LE(distance(result), distance(std::nextafter(result, -1e30F)));
-        ASSERT_EQ(result > 0, exact > 0);
-        ASSERT_EQ(result < 0, exact < 0);
-    }
-}
-
 TEST(PairTest, ReportsDistanceAndBarycentricsOfTheFilesCorners) {
     const RaySetup ray = setup({1, 2, 1}, {0, 0, 2}, bounds(one_triangle));
-    const PairHits found = test_pair(lone(one_triangle, 0), ray, -infinity);
+    const PairHits found = test_pair(lone(one_triangle, 0), ray);
     ASSERT_TRUE(found.is_pierced[0]);
     EXPECT_FALSE(found.is_pierced[1]);
     EXPECT_EQ(found.hits[0], (Hit{2.0F, 0.25F, 0.5F, 0}));
@@ -78,18 +53,13 @@ TEST(PairTest, ReportsDistanceAndBarycentricsOfTheFilesCorners) {
 
 TEST(PairTest, CountsBothSides) {
     const RaySetup ray = setup({1, 2, 9}, {0, 0, -1}, bounds(one_triangle));
-    EXPECT_TRUE(test_pair(lone(one_triangle, 0), ray, -infinity).is_pierced[0]);
-}
-
-TEST(PairTest, RaisesAHitToTheEntryOfItsBox) {
-    const RaySetup ray = setup({1, 2, 1}, {0, 0, 2}, bounds(one_triangle));
-    EXPECT_EQ(test_pair(lone(one_triangle, 0), ray, 2.5F).hits[0].t, 2.5F);
+    EXPECT_TRUE(test_pair(lone(one_triangle, 0), ray).is_pierced[0]);
 }
 
 // The stored corner order must not show in u and v.
 TEST(PairTest, MapsBarycentricsBackThroughEveryCornerOrder) {
     const RaySetup ray = setup({1, 0.5F, 1}, {0.1F, 0.05F, 2}, bounds(one_triangle));
-    const Hit expected = test_pair(lone(one_triangle, 0), ray, -infinity).hits[0];
+    const Hit expected = test_pair(lone(one_triangle, 0), ray).hits[0];
     for (std::uint8_t rotation = 0; rotation < 3; ++rotation) {
         for (const bool is_reversed : {false, true}) {
             TrianglePair pair{.primitive_ids = {0, 0},
@@ -98,7 +68,7 @@ TEST(PairTest, MapsBarycentricsBackThroughEveryCornerOrder) {
                 pair.vertices[(rotation + (is_reversed ? 3 - k : k)) % 3] = one_triangle.triangles[0][k];
             }
             pair.vertices[3] = pair.vertices[2];
-            const PairHits found = test_pair(make_leaf_pair(pair, one_triangle.positions), ray, -infinity);
+            const PairHits found = test_pair(make_leaf_pair(pair, one_triangle.positions), ray);
             ASSERT_TRUE(found.is_pierced[0]);
             EXPECT_FLOAT_EQ(found.hits[0].u, expected.u);
             EXPECT_FLOAT_EQ(found.hits[0].v, expected.v);
@@ -122,9 +92,9 @@ TEST(PairTest, IsBitForBitTwoSingleTests) {
         const LeafPair pair = make_leaf_pair(
             {.vertices = {0, 1, 2, 3}, .primitive_ids = {0, 1}, .corner_order = {}, .has_second = true},
             mesh.positions);
-        const PairHits both = test_pair(pair, ray, -infinity);
+        const PairHits both = test_pair(pair, ray);
         for (std::uint32_t id = 0; id < 2; ++id) {
-            const PairHits single = test_pair(lone(mesh, id), ray, -infinity);
+            const PairHits single = test_pair(lone(mesh, id), ray);
             ASSERT_EQ(both.is_pierced[id], single.is_pierced[0]);
             if (!single.is_pierced[0]) continue;
             ++hits;
@@ -144,7 +114,7 @@ TEST(PairTest, PiercesAFoldedPairTwice) {
     const LeafPair pair = make_leaf_pair(
         {.vertices = {0, 1, 2, 3}, .primitive_ids = {0, 1}, .corner_order = {}, .has_second = true},
         mesh.positions);
-    const PairHits found = test_pair(pair, setup({-0.5F, -0.5F, 0}, {0, 0, 1}, bounds(mesh)), -infinity);
+    const PairHits found = test_pair(pair, setup({-0.5F, -0.5F, 0}, {0, 0, 1}, bounds(mesh)));
     EXPECT_TRUE(found.is_pierced[0]);
     EXPECT_TRUE(found.is_pierced[1]);
     EXPECT_LT(found.hits[0].t, found.hits[1].t);
@@ -191,6 +161,68 @@ TEST(PairTest, AxisAlignedRaysLeaveAGridBoxExactlyOnce) {
     }
 }
 
+// How a ray's parts are drawn for the comparison with rational arithmetic.
+struct Case {
+    const char* name;
+    float offset;  // of everything from the coordinate system's origin
+    float width;   // of the triangle across its longest side
+    bool is_aimed_at_edge;
+};
+
+class AgainstRationalArithmetic : public testing::TestWithParam<Case> {};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+
+float rounded(const test::Rational& exact) { return exact.convert_to<float>(); }
+
+// Within half a unit in the last place, and a little for the rounding of the double before it.
+void expect_rounded_once(float value, const test::Rational& exact) {
+    const test::Rational error = test::Rational(double(value)) - exact;
+    const float size = std::abs(value);
+    const double ulp = double(std::nextafter(size, infinity)) - double(size);
+    EXPECT_LE(std::abs(error.convert_to<double>()), 0.5001 * ulp) << value << " for " << rounded(exact);
+}
+
+TEST_P(AgainstRationalArithmetic, DecidesAndMeasuresTheSame) {
+    const auto [name, offset, width, is_aimed_at_edge] = GetParam();
+    Random random(5);
+    int hits = 0, exact_tests = 0;
+    constexpr int rays = 10'000;
+    for (int i = 0; i < rays; ++i) {
+        const Vec3 centre{offset, 0.3F * offset, -offset};
+        const Vec3 a = centre + random.point(-1, 1), b = centre + random.point(-1, 1);
+        const Vec3 c = a + (b - a) * random.uniform(0, 1) + random.point(-1, 1) * width;
+        const TriangleMesh mesh{"one", {a, b, c}, {{0, 1, 2}}};
+        const Vec3 origin = centre + random.point(-3, 3);
+        const Vec3 target = is_aimed_at_edge ? a + (b - a) * (i % 4 == 0 ? 0.0F : random.uniform(0, 1))
+                                             : centre + random.point(-1, 1);
+        const RaySetup ray = setup(origin, target - origin, bounds(mesh));
+        const PairHits found = test_pair(lone(mesh, 0), ray);
+        const auto expected =
+            test::exact_hit({ray.origin, ray.direction, ray.kz}, {a, b, c}, ray.kz, ray.direction[ray.kz]);
+        ASSERT_EQ(found.is_pierced[0], expected.has_value()) << "ray " << i;
+        exact_tests += int(found.exact_tests);
+        if (!expected) continue;
+        ++hits;
+        expect_rounded_once(found.hits[0].t, expected->t);
+        // A weight near zero keeps the absolute precision of the others.
+        EXPECT_NEAR(double(found.hits[0].u), expected->u.convert_to<double>(), 0x1p-24);
+        EXPECT_NEAR(double(found.hits[0].v), expected->v.convert_to<double>(), 0x1p-24);
+    }
+    EXPECT_GE(hits, rays / 50);
+    EXPECT_LE(hits, rays - rays / 4);
+    // The first pass must be worth its while where rays do not aim at edges.
+    if (!is_aimed_at_edge && offset < 10 && width >= 1) {
+        EXPECT_LE(exact_tests, hits + rays / 1000);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, AgainstRationalArithmetic,
+                         testing::Values(Case{"Anywhere", 0, 1, false}, Case{"AtTheEdge", 0, 1, true},
+                                         Case{"FarAway", 1e6F, 1, true}, Case{"Needles", 0, 1e-4F, true},
+                                         Case{"FarNeedles", 1e4F, 1e-3F, true}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
 TEST(PairTest, NeverHitsADegenerateTriangle) {
     Random random(3);
     for (int i = 0; i < 10'000; ++i) {
@@ -202,20 +234,19 @@ TEST(PairTest, NeverHitsADegenerateTriangle) {
         const Vec3 target =
             mesh.positions[0] + (mesh.positions[1] - mesh.positions[0]) * random.uniform(0, 1);
         const RaySetup ray = setup(origin, target - origin, bounds(mesh));
-        ASSERT_FALSE(test_pair(lone(mesh, 0), ray, -infinity).is_pierced[0]);
+        ASSERT_FALSE(test_pair(lone(mesh, 0), ray).is_pierced[0]);
     }
 }
 
 TEST(RaySetup, RefusesRaysThatCannotHit) {
-    const Aabb box = bounds(one_triangle);
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_FALSE(make_ray_setup({{nan, 0, 0}, 0, {0, 0, 1}, 1}, box));
-    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, 0, {0, nan, 1}, 1}, box));
-    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, 0, {0, infinity, 1}, 1}, box));
-    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, 0, {0, 0, 0}, 1}, box));
-    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, 1, {0, 0, 1}, 1}, box));
-    EXPECT_FALSE(make_ray_setup({{0, 0, 0}, nan, {0, 0, 1}, 1}, box));
-    EXPECT_TRUE(make_ray_setup({{0, 0, 0}, 0, {0, 0, 1e-40F}, infinity}, box));
+    EXPECT_FALSE(can_hit({{nan, 0, 0}, 0, {0, 0, 1}, 1}));
+    EXPECT_FALSE(can_hit({{0, 0, 0}, 0, {0, nan, 1}, 1}));
+    EXPECT_FALSE(can_hit({{0, 0, 0}, 0, {0, infinity, 1}, 1}));
+    EXPECT_FALSE(can_hit({{0, 0, 0}, 0, {0, 0, 0}, 1}));
+    EXPECT_FALSE(can_hit({{0, 0, 0}, 1, {0, 0, 1}, 1}));
+    EXPECT_FALSE(can_hit({{0, 0, 0}, nan, {0, 0, 1}, 1}));
+    EXPECT_TRUE(can_hit({{0, 0, 0}, 0, {0, 0, 1e-40F}, infinity}));
 }
 
 }  // namespace

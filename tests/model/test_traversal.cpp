@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "meshes.hpp"
@@ -17,28 +18,14 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 Ray ray_between(Vec3 from, Vec3 to, float t_max = infinity) { return {from, 0, to - from, t_max}; }
 
-// The entry of the leaf's box, as traversal computes it, without a tree: a one-child node around the pair.
-float box_entry(const LeafPair& pair, const RaySetup& ray) {
-    Node<2> node{};
-    node.child_count = 1;
-    Aabb box;
-    for (const Vec3& v : pair.vertices) box.extend(v);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        node.lo[axis] = {box.lo[axis], infinity};
-        node.hi[axis] = {box.hi[axis], -infinity};
-    }
-    return slab_test(node, ray, ray.t_max).t_near[0];
-}
-
 // Every pair against the ray, nearest hit, lowest primitive id: no tree, no boxes that could cull.
 std::optional<Hit> brute_force(const MemoryImage& image, const Ray& ray) {
-    const auto setup = make_ray_setup(ray, image.bounds);
+    const RaySetup setup = make_ray_setup(ray, image.bounds);
     std::optional<Hit> best;
-    if (!setup) return best;
     const std::uint64_t first = image.node_count * MemoryImage::node_bytes(image.width);
     for (std::uint64_t i = 0; i < image.pair_count; ++i) {
         const LeafPair& pair = image.leaf_pair(NodeRef::leaf(first + i * image_block_bytes, 1), 0);
-        const PairHits found = test_pair(pair, *setup, box_entry(pair, *setup));
+        const PairHits found = test_pair(pair, setup);
         for (std::size_t k = 0; k < 2; ++k) {
             const Hit& hit = found.hits[k];
             if (!found.is_pierced[k] || !(hit.t > ray.t_min && hit.t < ray.t_max)) continue;
@@ -96,6 +83,36 @@ TEST(Traversal, LosesNoAcceptedHitToABox) {
             ASSERT_EQ(trace(image, ray, RayKind::ClosestHit), brute_force(image, ray)) << "ray " << i;
         }
     }
+}
+
+// The smallest scene is the triangle itself, where the slab test has the least room for its rounding.
+TEST(SlabTest, NeverEntersABoxBehindAnAcceptedHit) {
+    Random random(10);
+    int hits = 0;
+    for (int i = 0; i < 400'000; ++i) {
+        const float offset = std::ldexp(1.0F, int(random.below(20)));
+        TriangleMesh mesh{"one", {}, {{0, 1, 2}}};
+        for (int k = 0; k < 3; ++k) mesh.positions.push_back(Vec3{offset, 1, 0} + random.point(-1, 1));
+        if (i % 2 == 0) {
+            for (Vec3& p : mesh.positions)
+                p[std::size_t(i / 2) % 3] = mesh.positions[0][std::size_t(i / 2) % 3];
+        }
+        const Vec3 target = (mesh.positions[0] + mesh.positions[1]) * 0.4F + mesh.positions[2] * 0.2F;
+        const Vec3 origin = target + random.point(-1, 1) * (i % 3 == 0 ? 1.0F : 100.0F);
+        const Ray ray = ray_between(origin, target);
+        const RaySetup setup = make_ray_setup(ray, bounds(mesh));
+        const auto pair = make_leaf_pair({.vertices = {0, 1, 2, 2}, .primitive_ids = {0, 0}}, mesh.positions);
+        const PairHits found = test_pair(pair, setup);
+        if (!found.is_pierced[0] || !(found.hits[0].t > 0)) continue;
+        ++hits;
+        Node<4> node{};
+        node.child_count = 1;
+        node.set_box(0, bounds(mesh));
+        const auto slab = slab_test(node, SlabRay<4>(setup), found.hits[0].t);
+        ASSERT_EQ(slab.mask, 1U) << "ray " << i;
+        ASSERT_LE(slab.t_near[0], found.hits[0].t) << "ray " << i;
+    }
+    EXPECT_GT(hits, 200'000);
 }
 
 TEST(Traversal, NeverLeaksThroughAClosedMesh) {

@@ -55,7 +55,7 @@ inline study::SceneReport example_report(const std::string& name = "bunny") {
     shadow.ray_count = 512;
     shadow.cycles = 4096;
     report.workloads = {primary, shadow};
-    report.check = study::CheckReport{2560, 0, 2550, 0, 3, 2, 14, 0};
+    report.check = study::CheckReport{2560, 0, 2550, 0, 3, 2, 14};
     report.host = {0.0125, 0.37, 2560, 34952192};
     return report;
 }
