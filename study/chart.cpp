@@ -1,0 +1,147 @@
+#include "study/chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "model/one_line.hpp"
+
+namespace rtu::study {
+namespace {
+
+// Okabe and Ito's colours, apart for every kind of colour vision; black and yellow left out: both are lost on
+// one of the two backgrounds.
+constexpr std::array<std::string_view, 6> colours{"#0072b2", "#d55e00", "#009e73",
+                                                  "#cc79a7", "#56b4e9", "#e69f00"};
+constexpr std::array point_types{7, 5, 9, 13, 11, 15};
+constexpr int width = 760;
+constexpr int least_height = 400;
+constexpr int key_row_height = 20;  // a legend taller than the chart would be cut
+
+// Single quotes: nothing is expanded in them, and a quote is doubled.
+std::string quoted(std::string_view text) {
+    std::string out = "'";
+    for (const char c : model::printable(text)) out.append(c == '\'' ? 2 : 1, c);
+    return out + "'";
+}
+
+std::string data_block(std::string_view name, const std::vector<std::pair<double, double>>& points) {
+    std::string out = fmt::format("${} << END\n", name);
+    for (const auto& [x, y] : points) out += fmt::format("{} {}\n", x, y);
+    return out + "END\n";
+}
+
+bool has_data(const Chart& chart) {
+    return std::ranges::any_of(chart.series,
+                               [](const ChartSeries& s) { return !s.points.empty() || s.level; });
+}
+
+int height_of(const Chart& chart) {
+    const auto rows = int(chart.series.size()) + (chart.mark_name.empty() ? 0 : 1);
+    return std::max(least_height, 110 + rows * key_row_height);
+}
+
+std::string terminal(const Chart& chart, ChartFormat format) {
+    if (format == ChartFormat::Png) {
+        return fmt::format("set terminal pngcairo noenhanced background 'white' size {},{} font 'sans,12'\n",
+                           width, height_of(chart));
+    }
+    return fmt::format("set terminal svg noenhanced size {},{} dynamic font 'sans-serif,14' name {}\n", width,
+                       height_of(chart), quoted(chart.name));
+}
+
+std::string frame(const Chart& chart) {
+    std::string out = fmt::format(
+        "set encoding utf8\nset title {}\nset xlabel {}\nset ylabel {}\n"
+        "set key outside right top vertical Left reverse samplen 1.5\n"
+        "set grid ytics linewidth 0.5 linecolor rgb '#999999'\n"
+        "set border 3 linecolor rgb '#808080'\nset tics nomirror\n",
+        quoted(chart.title), quoted(chart.x_label), quoted(chart.y_label));
+    if (chart.is_x_logarithmic) out += "set logscale x 2\nset format x '%g'\n";
+    return out;
+}
+
+// Lines: each series its own colour and kind of point; levels dashed.
+std::string lines(const Chart& chart) {
+    std::string data, plots;
+    double lo = 1e300, hi = -1e300;
+    for (const ChartSeries& series : chart.series) {
+        for (const auto& point : series.points) {
+            lo = std::min(lo, point.first);
+            hi = std::max(hi, point.first);
+        }
+    }
+    if (lo > hi) lo = hi = 1;
+    for (std::size_t i = 0; i < chart.series.size(); ++i) {
+        const ChartSeries& series = chart.series[i];
+        const std::string block = fmt::format("series{}", i);
+        const std::string_view colour = colours[i % colours.size()];
+        auto points = series.points;
+        if (series.level) points = {{lo, *series.level}, {hi, *series.level}};
+        data += data_block(block, points);
+        plots += fmt::format("{}${} using 1:2 title {} ", i == 0 ? "" : ", ", block, quoted(series.name));
+        plots +=
+            series.level
+                ? fmt::format("with lines dashtype 2 linewidth 1.5 linecolor rgb '{}'", colour)
+                : fmt::format("with linespoints linewidth 2 pointtype {} pointsize 0.7 linecolor rgb '{}'",
+                              point_types[i % point_types.size()], colour);
+    }
+    const std::string range =
+        chart.is_x_logarithmic
+            ? fmt::format("set xrange [{}:{}]\n", lo / 1.15, hi * 1.15)
+            : fmt::format("set xrange [{}:{}]\n", lo - 0.03 * (hi - lo), hi + 0.03 * (hi - lo));
+    return data + range + "plot " + plots + "\n";
+}
+
+std::string group_tics(const Chart& chart) {
+    std::string out = "set xtics (";
+    for (std::size_t i = 0; i < chart.groups.size(); ++i) {
+        out += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(chart.groups[i]), i);
+    }
+    // Long names next to each other would overlap.
+    std::size_t characters = 0;
+    for (const std::string& group : chart.groups) characters += group.size() + 3;
+    return out + (characters > 70 ? ") rotate by -35 left\n" : ")\n");
+}
+
+// Bars: the groups side by side, in each a bar of every series.
+std::string bars(const Chart& chart) {
+    const double bar = 0.8 / double(chart.series.size());
+    std::string data, plots;
+    std::vector<std::pair<double, double>> marks;
+    for (std::size_t i = 0; i < chart.series.size(); ++i) {
+        const double shift = (double(i) - 0.5 * double(chart.series.size() - 1)) * bar;
+        const auto shifted = [shift](std::vector<std::pair<double, double>> points) {
+            for (auto& point : points) point.first += shift;
+            return points;
+        };
+        data += data_block(fmt::format("series{}", i), shifted(chart.series[i].points));
+        const auto more = shifted(chart.series[i].marks);
+        marks.insert(marks.end(), more.begin(), more.end());
+        plots += fmt::format(
+            "{}$series{} using 1:2:({}) title {} with boxes fillstyle solid border linecolor rgb '{}'",
+            i == 0 ? "" : ", ", i, bar * 0.92, quoted(chart.series[i].name), colours[i % colours.size()]);
+    }
+    plots += ", 0 notitle with lines linewidth 1 linecolor rgb '#808080'";
+    if (!marks.empty()) {
+        data += data_block("marks", marks);
+        plots += fmt::format(
+            ", $marks using 1:2 title {} with points pointtype 12 pointsize 1.2 linewidth 2 linecolor rgb "
+            "'#808080'",
+            quoted(chart.mark_name));
+    }
+    return data + group_tics(chart) +
+           fmt::format("set xrange [-0.6:{}]\n", double(chart.groups.size()) - 0.4) + "plot " + plots + "\n";
+}
+
+}  // namespace
+
+std::string gnuplot_script(const Chart& chart, ChartFormat format) {
+    std::string out = terminal(chart, format) + frame(chart);
+    if (!has_data(chart)) return out + "set xrange [0:1]\nset yrange [0:1]\nplot NaN title 'no data'\n";
+    return out + (chart.groups.empty() ? lines(chart) : bars(chart));
+}
+
+}  // namespace rtu::study
