@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "model/one_line.hpp"
@@ -20,10 +21,21 @@ constexpr int width = 760;
 constexpr int least_height = 400;
 constexpr int key_row_height = 20;  // a legend taller than the chart would be cut
 
-// Single quotes: nothing is expanded in them, and a quote is doubled.
-std::string quoted(std::string_view text) {
+// Nothing is expanded within single quotes. A quote would end them (gnuplot 5.4 reads a doubled one wrongly
+// at the beginning of a text), so it becomes an apostrophe; bytes that are no UTF-8 become replacement
+// characters.
+std::string in_quotes(std::string_view text) {
+    using Json = nlohmann::json;
+    const std::string valid =
+        Json::parse(Json(model::printable(text)).dump(-1, ' ', false, Json::error_handler_t::replace));
     std::string out = "'";
-    for (const char c : model::printable(text)) out.append(c == '\'' ? 2 : 1, c);
+    for (const char c : valid) {
+        if (c == '\'') {
+            out += "\u2019";
+        } else {
+            out += c;
+        }
+    }
     return out + "'";
 }
 
@@ -48,8 +60,9 @@ std::string terminal(const Chart& chart, ChartFormat format) {
         return fmt::format("set terminal pngcairo noenhanced background 'white' size {},{} font 'sans,12'\n",
                            width, height_of(chart));
     }
-    return fmt::format("set terminal svg noenhanced size {},{} dynamic font 'sans-serif,14' name {}\n", width,
-                       height_of(chart), quoted(chart.name));
+    return fmt::format(
+        "set terminal svg noenhanced background 'white' size {},{} dynamic font 'sans-serif,14' name {}\n",
+        width, height_of(chart), in_quotes(chart.name));
 }
 
 std::string frame(const Chart& chart) {
@@ -57,9 +70,10 @@ std::string frame(const Chart& chart) {
         "set encoding utf8\nset title {}\nset xlabel {}\nset ylabel {}\n"
         "set key outside right top vertical Left reverse samplen 1.5\n"
         "set grid ytics linewidth 0.5 linecolor rgb '#999999'\n"
-        "set border 3 linecolor rgb '#808080'\nset tics nomirror\n",
-        quoted(chart.title), quoted(chart.x_label), quoted(chart.y_label));
+        "set border 3 linecolor rgb '#808080'\nset tics nomirror textcolor rgb 'black'\n",
+        in_quotes(chart.title), in_quotes(chart.x_label), in_quotes(chart.y_label));
     if (chart.is_x_logarithmic) out += "set logscale x 2\nset format x '%g'\n";
+    if (chart.has_zero_line) out += "set yrange [*<0:0<*]\n";
     return out;
 }
 
@@ -77,16 +91,16 @@ std::string lines(const Chart& chart) {
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
         const ChartSeries& series = chart.series[i];
         const std::string block = fmt::format("series{}", i);
-        const std::string_view colour = colours[i % colours.size()];
+        const std::string_view colour = colours[series.colour % colours.size()];
         auto points = series.points;
         if (series.level) points = {{lo, *series.level}, {hi, *series.level}};
         data += data_block(block, points);
-        plots += fmt::format("{}${} using 1:2 title {} ", i == 0 ? "" : ", ", block, quoted(series.name));
+        plots += fmt::format("{}${} using 1:2 title {} ", i == 0 ? "" : ", ", block, in_quotes(series.name));
         plots +=
             series.level
                 ? fmt::format("with lines dashtype 2 linewidth 1.5 linecolor rgb '{}'", colour)
                 : fmt::format("with linespoints linewidth 2 pointtype {} pointsize 0.7 linecolor rgb '{}'",
-                              point_types[i % point_types.size()], colour);
+                              point_types[series.colour % point_types.size()], colour);
     }
     const std::string range =
         chart.is_x_logarithmic
@@ -98,12 +112,12 @@ std::string lines(const Chart& chart) {
 std::string group_tics(const Chart& chart) {
     std::string out = "set xtics (";
     for (std::size_t i = 0; i < chart.groups.size(); ++i) {
-        out += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(chart.groups[i]), i);
+        out += fmt::format("{}{} {}", i == 0 ? "" : ", ", in_quotes(chart.groups[i]), i);
     }
     // Long names next to each other would overlap.
     std::size_t characters = 0;
     for (const std::string& group : chart.groups) characters += group.size() + 3;
-    return out + (characters > 70 ? ") rotate by -35 left\n" : ")\n");
+    return out + (characters > 50 ? ") rotate by -35 left\n" : ")\n");
 }
 
 // Bars: the groups side by side, in each a bar of every series.
@@ -121,16 +135,17 @@ std::string bars(const Chart& chart) {
         const auto more = shifted(chart.series[i].marks);
         marks.insert(marks.end(), more.begin(), more.end());
         plots += fmt::format(
-            "{}$series{} using 1:2:({}) title {} with boxes fillstyle solid border linecolor rgb '{}'",
-            i == 0 ? "" : ", ", i, bar * 0.92, quoted(chart.series[i].name), colours[i % colours.size()]);
+            "{}$series{} using 1:2:({}) title {} with boxes fillstyle solid noborder linecolor rgb '{}'",
+            i == 0 ? "" : ", ", i, bar * 0.92, in_quotes(chart.series[i].name),
+            colours[chart.series[i].colour % colours.size()]);
     }
     plots += ", 0 notitle with lines linewidth 1 linecolor rgb '#808080'";
     if (!marks.empty()) {
         data += data_block("marks", marks);
         plots += fmt::format(
-            ", $marks using 1:2 title {} with points pointtype 12 pointsize 1.2 linewidth 2 linecolor rgb "
-            "'#808080'",
-            quoted(chart.mark_name));
+            ", $marks using 1:2 title {} with points pointtype 12 pointsize 0.8 linewidth 2 linecolor rgb "
+            "'black'",
+            in_quotes(chart.mark_name));
     }
     return data + group_tics(chart) +
            fmt::format("set xrange [-0.6:{}]\n", double(chart.groups.size()) - 0.4) + "plot " + plots + "\n";

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rtu::study {
@@ -14,16 +16,18 @@ struct ChartSeries {
     std::vector<std::pair<double, double>> points;
     std::optional<double> level;  ///< lines: a height that does not depend on x, drawn dashed over all of it
     std::vector<std::pair<double, double>> marks;  ///< bars: a value beside it, drawn as a diamond
+    std::size_t colour = 0;                        ///< which of the palette; it repeats
 };
 
 /// A chart of lines or, when there are groups, of bars. Text may hold anything; control characters are shown
-/// as escapes.
+/// as blanks.
 struct Chart {
     std::string name;  ///< of its files, without extension: letters, digits and underscores
     std::string title;
     std::string x_label;
     std::string y_label;
     bool is_x_logarithmic = false;  ///< to base 2
+    bool has_zero_line = false;  ///< lines: the height 0 is shown, whatever the values; bars always show it
     std::vector<std::string> groups;
     std::vector<ChartSeries> series;
     std::string mark_name;  ///< what the diamonds are; empty for none

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 namespace rtu::study {
 namespace {
 
@@ -21,7 +25,7 @@ th, td { padding: .2rem .6rem; text-align: right; white-space: nowrap; }
 th { border-bottom: 2px solid var(--line); vertical-align: bottom; }
 td { border-bottom: 1px solid var(--line); } tr.rule td { border-top: 2px solid var(--line); }
 .left { text-align: left; }
-figure { margin: 1rem 0; break-inside: avoid; } figcaption { color: var(--quiet); font-size: .85rem; }
+figure { margin: 1rem 0; break-inside: avoid; }
 figure svg { width: 100%; max-width: 760px; height: auto; color: var(--text); }
 @media print { body { max-width: none; font-size: 10px; } .scroll { overflow: visible; } table { font-size: 8px; }
   th, td { padding: .1rem .25rem; } h2, tr { break-inside: avoid; break-after: avoid-page; } }
@@ -88,12 +92,22 @@ std::string html_table(const std::vector<TextTable::Column>& columns,
     return out + "</tbody></table></div>\n";
 }
 
-std::string html_figure(std::string_view svg, std::string_view caption) {
+std::string html_figure(std::string_view svg, std::string_view name) {
     // What stands before the element itself belongs to a file, not into a page.
     std::string drawing(svg.substr(std::min(svg.find("<svg"), svg.size())));
-    drawing = replaced(std::move(drawing), "rgb(  0,   0,   0)", "currentColor");
-    drawing = replaced(std::move(drawing), "color=\"black\"", "");
-    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", drawing, html_escaped(caption));
+    constexpr std::array changes = std::to_array<std::pair<std::string_view, std::string_view>>({
+        {"fill=\"#ffffff\"", "fill=\"none\""},  // the file's background
+        {"fill=\"black\"", "fill=\"currentColor\""},
+        {"rgb(0,0,0)", "currentColor"},
+        {"rgb(  0,   0,   0)", "currentColor"},
+        {"color=\"black\"", ""},
+    });
+    for (const auto& [from, to] : changes) drawing = replaced(std::move(drawing), from, to);
+    // Ids are the page's, and every drawing of gnuplot has the same.
+    for (const char* id : {"gpDot", "gpPt", "gnuplot_canvas", "textbox", "greybox"}) {
+        drawing = replaced(std::move(drawing), id, fmt::format("{}-{}", name, id));
+    }
+    return fmt::format("<figure>{}</figure>\n", drawing);
 }
 
 std::string html_page(std::string_view title, std::string_view body) {

@@ -18,9 +18,9 @@ namespace rtu::study {
 [[nodiscard]] std::string html_table(const std::vector<TextTable::Column>& columns,
                                      const std::vector<std::vector<std::string>>& rows);
 
-/// An SVG file as a figure within the page; its black becomes the page's colour of text. `caption` is
-/// escaped.
-[[nodiscard]] std::string html_figure(std::string_view svg, std::string_view caption);
+/// An SVG file of gnuplot as a figure within the page; its black becomes the page's colour of text. `name`
+/// (letters, digits, underscores; once a page) sets its ids apart.
+[[nodiscard]] std::string html_figure(std::string_view svg, std::string_view name);
 
 /// The page around `body`, which is HTML; `title` is escaped.
 [[nodiscard]] std::string html_page(std::string_view title, std::string_view body);

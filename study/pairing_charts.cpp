@@ -36,8 +36,9 @@ Chart comparison_chart(const PairingReport& report, const std::string& method) {
     chart.name = "pairing_" + file_part(method);
     chart.title = fmt::format("{} instead of {}, preset {}", method, report.baseline, report.preset);
     chart.y_label = "change (%)";
-    for (const Quantity& quantity : quantities)
-        chart.series.push_back({std::string(quantity.name), {}, {}, {}});
+    for (const Quantity& quantity : quantities) {
+        chart.series.push_back({std::string(quantity.name), {}, {}, {}, chart.series.size()});
+    }
     for (const PairingRow& row : report.rows) {
         if (row.method != method) continue;
         const auto group = double(chart.groups.size());
@@ -59,7 +60,7 @@ Chart comparison_chart(const PairingReport& report, const std::string& method) {
 ChartSeries& series_of(Chart& chart, const std::string& name) {
     const auto found = std::ranges::find(chart.series, name, &ChartSeries::name);
     if (found != chart.series.end()) return *found;
-    return chart.series.emplace_back(ChartSeries{name, {}, {}, {}});
+    return chart.series.emplace_back(ChartSeries{name, {}, {}, {}, chart.series.size()});
 }
 
 std::string series_name(const PairingReport& report, const PairingRow& row) {
@@ -72,9 +73,10 @@ Chart framed(const PairingReport& report, const PairingStudyInfo& what, std::str
     chart.x_label = what.axis;
     chart.is_x_logarithmic = what.is_logarithmic;
     const bool is_window = what.kind == PairingStudyKind::Window;
-    chart.title = fmt::format("{} instead of {}, preset {}",
+    chart.title = fmt::format("{} instead of {}",
                               is_window ? "window:N" : fmt::format("{}", fmt::join(report.methods, ", ")),
-                              report.baseline, report.preset);
+                              report.baseline);
+    if (what.kind != PairingStudyKind::Preset) chart.title += fmt::format(", preset {}", report.preset);
     return chart;
 }
 
@@ -89,6 +91,12 @@ Chart line_chart(const PairingReport& report, const PairingStudyTable& study, st
         if (is_window) {
             const std::string method = point.x ? "window:N" : point.row.method;
             ChartSeries& series = series_of(chart, fmt::format("{}, {}", point.row.scene, method));
+            series.colour =
+                std::size_t(std::ranges::find(report.scenes, point.row.scene,
+                                              [](const PairingScene& scene) -> const std::string& {
+                                                  return scene.facts.name;
+                                              }) -
+                            report.scenes.begin());
             if (point.x) {
                 series.points.emplace_back(*point.x, *y);
             } else {
@@ -175,6 +183,7 @@ std::vector<Chart> study_charts(const PairingReport& report, const PairingStudyT
             break;
     }
     charts.back().y_label = "change of MRPS (%)";
+    charts.back().has_zero_line = true;
     return charts;
 }
 

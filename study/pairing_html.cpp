@@ -20,7 +20,7 @@ std::string section(const PairingTable& table) {
 std::string figures(const std::vector<Chart>& charts) {
     std::string out;
     for (const Chart& chart : charts) {
-        out += html_figure(draw(chart, ChartFormat::Svg), fmt::format("{}: {}", chart.name, chart.y_label));
+        out += html_figure(draw(chart, ChartFormat::Svg), chart.name);
     }
     return out;
 }

@@ -8,7 +8,6 @@
 #include "model/one_line.hpp"
 #include "sim/config_keys.hpp"
 #include "study/pairing_study.hpp"
-#include "study/text_table.hpp"
 
 namespace rtu::study {
 namespace {
@@ -61,7 +60,7 @@ Points window_points(const PairingSetting& base, const PairingOptions& options) 
         points.push_back({fmt::format("{}", window), double(window), base, method});
     }
     for (const model::PairingMethod& method : options.methods) {
-        if (method.kind != model::PairingKind::Window) points.push_back({"all", std::nullopt, base, method});
+        if (method.kind != model::PairingKind::Window) points.push_back({"-", std::nullopt, base, method});
     }
     return points;
 }
@@ -75,7 +74,7 @@ Points rotation_points(const PairingSetting& base, const model::Camera& camera) 
     for (int degrees = 0; degrees <= 90; degrees += 15) {
         PairingSetting setting = base;
         setting.rotation[up] += degrees;
-        points.push_back({fmt::format("{} deg about {}", degrees, "xyz"[up]), double(degrees), setting, {}});
+        points.push_back({fmt::format("{} deg", degrees), double(degrees), setting, {}});
     }
     return points;
 }
@@ -100,16 +99,21 @@ Points preset_points(const PairingSetting& base, const PairingOptions& options) 
     return points;
 }
 
-// Sizes in bytes, shown in KiB or MiB.
+struct SizeUnit {
+    std::string_view name;
+    double bytes;
+};
+
 Points size_points(const PairingSetting& base, const PairingOptions& options, std::string_view key,
-                   std::span<const std::int64_t> sizes, double unit_bytes) {
+                   std::span<const std::int64_t> sizes, SizeUnit unit) {
     Points points;
     for (const std::int64_t bytes : sizes) {
         const auto config = changed(options.machine, key, bytes);
         if (!config) continue;
         PairingSetting setting = base;
         setting.config = *config;
-        points.push_back({byte_size(std::uint64_t(bytes)), double(bytes) / unit_bytes, setting, {}});
+        const double size = double(bytes) / unit.bytes;
+        points.push_back({fmt::format("{:g} {}", size, unit.name), size, setting, {}});
     }
     return points;
 }
@@ -168,10 +172,11 @@ std::vector<StudyPoint> study_points(PairingStudyKind kind, const PairingOptions
         case PairingStudyKind::Preset:
             return preset_points(base, options);
         case PairingStudyKind::L1Size:
-            return size_points(base, options, "l1.size_bytes", doublings(config.l1.size_bytes, -3, 3), 1024);
+            return size_points(base, options, "l1.size_bytes", doublings(config.l1.size_bytes, -3, 3),
+                               {"KiB", 1024});
         case PairingStudyKind::L2Size:
             return size_points(base, options, "l2.size_bytes", doublings(config.l2.size_bytes, -3, 4),
-                               1024.0 * 1024);
+                               {"MiB", 1024 * 1024});
         case PairingStudyKind::DramBandwidth:
             return bandwidth_points(base, options);
         case PairingStudyKind::Testers:

@@ -17,7 +17,7 @@ namespace rtu::study {
 [[nodiscard]] std::string pairing_facts(const PairingReport& report);
 
 /// The report as plain text: the table of [AF], what the memory sees, what bounds the machine, the published
-/// values beside ours, then each study. At most 100 columns as long as names are short.
+/// values beside ours, then each study. At most 100 columns as long as names are short, studies 120.
 [[nodiscard]] std::string pairing_text(const PairingReport& report);
 
 }  // namespace rtu::study
