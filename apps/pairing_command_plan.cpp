@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "apps/option_values.hpp"
@@ -108,6 +109,18 @@ study::PairingOptions parse_options(const PairingArguments& arguments) {
     return options;
 }
 
+// Studies and charts tell scenes apart by their names.
+void check_names(const PairingPlan& plan) {
+    if (plan.options.studies.empty() && !plan.html && !plan.chart_folder) return;
+    std::set<std::string> names;
+    for (const study::SceneSource& scene : plan.scenes) {
+        if (!names.insert(scene.name()).second) {
+            throw Error("two scenes are called '{}', and studies and charts could not tell them apart",
+                        scene.name());
+        }
+    }
+}
+
 void check_outputs(const PairingPlan& plan, const PairingArguments& arguments) {
     std::vector<fs::path> inputs(arguments.scenes.begin(), arguments.scenes.end());
     for (const std::string& name : {arguments.camera, arguments.machine.file}) {
@@ -139,6 +152,7 @@ PairingPlan make_pairing_plan(const PairingArguments& arguments) {
     plan.csv = optional_path(arguments.csv);
     plan.html = optional_path(arguments.html);
     plan.chart_folder = optional_path(arguments.chart_folder);
+    check_names(plan);
     check_outputs(plan, arguments);
     return plan;
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::string_view, 6> colours{"#0072b2", "#d55e00", "#009e73",
                                                   "#cc79a7", "#56b4e9", "#e69f00"};
 constexpr std::array point_types{7, 5, 9, 13, 11, 15};
-constexpr int width = 760;
+constexpr int least_width = 760;
 constexpr int least_height = 400;
 constexpr int key_row_height = 20;  // a legend taller than the chart would be cut
 
@@ -50,19 +50,28 @@ bool has_data(const Chart& chart) {
                                [](const ChartSeries& s) { return !s.points.empty() || s.level; });
 }
 
+// Names of groups that would overlap when written side by side.
+bool has_slanted_names(const Chart& chart) {
+    std::size_t characters = 0;
+    for (const std::string& group : chart.groups) characters += group.size() + 3;
+    return characters > 50;
+}
+
+int width_of(const Chart& chart) { return chart.groups.size() > 8 ? least_width + 200 : least_width; }
+
 int height_of(const Chart& chart) {
     const auto rows = int(chart.series.size()) + (chart.mark_name.empty() ? 0 : 1);
-    return std::max(least_height, 110 + rows * key_row_height);
+    return std::max(least_height + (has_slanted_names(chart) ? 80 : 0), 110 + rows * key_row_height);
 }
 
 std::string terminal(const Chart& chart, ChartFormat format) {
     if (format == ChartFormat::Png) {
         return fmt::format("set terminal pngcairo noenhanced background 'white' size {},{} font 'sans,12'\n",
-                           width, height_of(chart));
+                           width_of(chart), height_of(chart));
     }
     return fmt::format(
         "set terminal svg noenhanced background 'white' size {},{} dynamic font 'sans-serif,14' name {}\n",
-        width, height_of(chart), in_quotes(chart.name));
+        width_of(chart), height_of(chart), in_quotes(chart.name));
 }
 
 std::string frame(const Chart& chart) {
@@ -114,10 +123,7 @@ std::string group_tics(const Chart& chart) {
     for (std::size_t i = 0; i < chart.groups.size(); ++i) {
         out += fmt::format("{}{} {}", i == 0 ? "" : ", ", in_quotes(chart.groups[i]), i);
     }
-    // Long names next to each other would overlap.
-    std::size_t characters = 0;
-    for (const std::string& group : chart.groups) characters += group.size() + 3;
-    return out + (characters > 50 ? ") rotate by -35 left\n" : ")\n");
+    return out + (has_slanted_names(chart) ? ") rotate by -35 left\n" : ")\n");
 }
 
 // Bars: the groups side by side, in each a bar of every series.

@@ -130,15 +130,18 @@ Chart tester_chart(const PairingReport& report, const PairingStudyTable& study) 
         fmt::format("MRPS against a single tester with {}, preset {}", report.baseline, report.preset);
     chart.y_label = "change of MRPS (%)";
     double reference = 0;
-    for (const auto& [setting, x, row] : study.points) {
-        if (setting == study.points.front().setting) reference = row.before.mrps();
+    for (const PairingPoint& point : study.points) {
+        const PairingRow& row = point.row;
+        if (point.setting == study.points.front().setting) reference = row.before.mrps();
         const std::string group = series_name(report, row);
         auto place = std::ranges::find(chart.groups, group);
         if (place == chart.groups.end()) place = chart.groups.insert(place, group);
         const auto index = double(place - chart.groups.begin());
         const auto add = [&](const std::string& pairs, const PairingRun& run) {
             const auto change = change_percent(reference, run.mrps());
-            if (change) series_of(chart, setting + ", " + pairs).points.emplace_back(index, *change);
+            if (change)
+                series_of(chart, fmt::format("{}, {}", point.setting, pairs))
+                    .points.emplace_back(index, *change);
         };
         add(row.baseline, row.before);
         add(report.methods.size() > 1 ? "method" : row.method, row.after);

@@ -154,6 +154,7 @@ TEST_F(PairingCommand, BadValuesAreNamedInOneLine) {
     expect_bad_input({"--study", "colour"}, "colour");
     expect_bad_input({"--study", "window,window"}, "twice");
     expect_bad_input({"--study", "no\nsuch"}, "no such");
+    expect_bad_input({"ball.glb", "--study", "window"}, "two scenes are called 'ball'");
     expect_bad_input({"--preset", "abacus"}, "abacus");
     expect_bad_input({"--workload", "primary,specular"}, "specular");
     for (const char* rotation :
