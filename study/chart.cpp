@@ -74,9 +74,12 @@ std::string terminal(const Chart& chart, ChartFormat format) {
         width_of(chart), height_of(chart), in_quotes(chart.name));
 }
 
+// The title is a label: gnuplot centres titles over the plot, and beside a wide legend a long one would be
+// cut.
 std::string frame(const Chart& chart) {
     std::string out = fmt::format(
-        "set encoding utf8\nset title {}\nset xlabel {}\nset ylabel {}\n"
+        "set encoding utf8\nset label 1 {} at screen 0.02, screen 0.955 left\nset tmargin 3\nset xlabel "
+        "{}\nset ylabel {}\n"
         "set key outside right top vertical Left reverse samplen 1.5\n"
         "set grid ytics linewidth 0.5 linecolor rgb '#999999'\n"
         "set border 3 linecolor rgb '#808080'\nset tics nomirror textcolor rgb 'black'\n",

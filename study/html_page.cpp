@@ -15,7 +15,7 @@ constexpr std::string_view style = R"(
   :root { --text: #e6e6e6; --back: #16181c; --line: #454a52; --quiet: #a6adb8; }
 }
 @media print { :root { --text: #000; --back: #fff; --line: #999; --quiet: #333; } }
-body { font: 15px/1.45 system-ui, sans-serif; color: var(--text); background: var(--back);
+body { font: .95rem/1.45 system-ui, sans-serif; color: var(--text); background: var(--back);
   max-width: 66rem; margin: 1.5rem auto; padding: 0 1rem; }
 h1 { font-size: 1.5rem; } h2 { font-size: 1.1rem; margin: 2rem 0 .5rem; }
 p.note, pre { color: var(--quiet); } pre { white-space: pre-wrap; font-size: .85rem; }
@@ -27,8 +27,9 @@ td { border-bottom: 1px solid var(--line); } tr.rule td { border-top: 2px solid 
 .left { text-align: left; }
 figure { margin: 1rem 0; break-inside: avoid; }
 figure svg { width: 100%; max-width: 760px; height: auto; color: var(--text); }
-@media print { body { max-width: none; font-size: 10px; } .scroll { overflow: visible; } table { font-size: 8px; }
-  th, td { padding: .1rem .25rem; } h2, tr { break-inside: avoid; break-after: avoid-page; } }
+@media print { html { font-size: 11px; } body { max-width: none; } .scroll { overflow: visible; }
+  table { font-size: .8rem; } th, td { padding: .1rem .3rem; } h2 { break-after: avoid; }
+  tr { break-inside: avoid; } figure svg { max-width: 480px; } }
 )";
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {

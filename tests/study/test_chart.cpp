@@ -49,7 +49,7 @@ TEST(ChartScript, QuotesWhateverNamesHold) {
     Chart chart = line_chart();
     chart.title = "a'b\n!touch x\n`touch y` $(z) \" \xff";
     const std::string script = gnuplot_script(chart, ChartFormat::Png);
-    EXPECT_THAT(script, HasSubstr("set title 'a\u2019b !touch x `touch y` $(z) \" \ufffd'\n"));
+    EXPECT_THAT(script, HasSubstr("set label 1 'a\u2019b !touch x `touch y` $(z) \" \ufffd' at"));
     EXPECT_THAT(script, Not(HasSubstr("\n!")));
 }
 
