@@ -2,25 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
 #include <vector>
+
+#include "study/csv.hpp"
 
 namespace rtu::study {
 namespace {
 
 using Row = std::vector<std::string>;
-
-std::string csv_cell(std::string_view cell) {
-    if (cell.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(cell);
-    std::string out;
-    for (const char c : cell) out.append(c == '"' ? 2 : 1, c);
-    return fmt::format("\"{}\"", out);
-}
-
-std::string line(Row row) {
-    for (std::string& cell : row) cell = csv_cell(cell);
-    return fmt::format("{}\r\n", fmt::join(row, ","));
-}
 
 Row header(const WorkloadReport& example) {
     Row row{"scene",          "workload",      "preset",    "pairing",   "edge_identity",  "seed",
@@ -78,12 +67,12 @@ Row cells(const SceneReport& report, const WorkloadReport& workload) {
 
 std::string csv_report(std::span<const SceneReport> reports) {
     const Row names = header(reports.front().workloads.front());
-    std::string out = line(names);
+    std::string out = csv_line(names);
     for (const SceneReport& report : reports) {
-        for (const WorkloadReport& workload : report.workloads) out += line(cells(report, workload));
+        for (const WorkloadReport& workload : report.workloads) out += csv_line(cells(report, workload));
         Row sum = cells(report, total(report));
         sum.resize(names.size());  // the total has no units: their columns stay empty
-        out += line(sum);
+        out += csv_line(sum);
     }
     return out;
 }

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/camera.hpp"
+#include "model/workload.hpp"
+#include "study/run_options.hpp"
+
+// What the words of a command line mean, for all commands that run scenes. All throw Error, in one line that
+// names the option, for what they do not understand.
+
+namespace rtu::apps {
+
+/// Nothing for an empty text: an option that was not given.
+[[nodiscard]] std::optional<std::filesystem::path> optional_path(const std::string& text);
+
+[[nodiscard]] std::uint64_t parse_seed(std::string_view text);
+
+/// "640x480".
+[[nodiscard]] model::Resolution parse_resolution(std::string_view text);
+
+/// "primary,shadow": known names, none twice.
+[[nodiscard]] std::vector<model::WorkloadKind> parse_workloads(std::string_view text);
+
+/// Every name must be a file that is there; without names, the built-in scene.
+[[nodiscard]] std::vector<study::SceneSource> parse_scenes(const std::vector<std::string>& names);
+
+[[nodiscard]] bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Reads every scene's camera once, for its errors.
+void check_cameras(const std::optional<std::filesystem::path>& file,
+                   const std::vector<study::SceneSource>& scenes);
+
+/// A file that can be written and replaces no input.
+void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
+
+}  // namespace rtu::apps
