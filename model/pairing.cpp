@@ -9,6 +9,8 @@
 #include "model/error.hpp"
 #include "model/matching.hpp"
 #include "model/pair_layout.hpp"
+#include "model/pair_saving.hpp"
+#include "model/sa_exchange.hpp"
 #include "model/weld.hpp"
 #include "model/window_pairing.hpp"
 
@@ -38,7 +40,11 @@ Matching match(const IdentifiedMesh& mesh, PairingMethod method, ScratchMemory& 
         case PairingKind::Window:
             return match_in_window(mesh, method.window, memory);
         case PairingKind::EdgeBbsa:
-            return match_greedily(pair_candidates(mesh, memory), triangle_count, memory);
+            return match_greedily(edge_bbsa_candidates(mesh, memory), triangle_count, memory);
+        case PairingKind::SaExchange:
+            return match_with_exchanges(mesh, memory);
+        case PairingKind::SaSaving:
+            return match_by_saving(mesh, memory);
     }
     fail_check(__FILE__, __LINE__, "unknown pairing kind");
 }

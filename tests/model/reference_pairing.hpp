@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "model/mesh.hpp"
@@ -62,14 +63,52 @@ inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& me
     return table;
 }
 
-inline Partners reference_edge_bbsa(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
-    const std::vector<HalfEdgeRecord> table = half_edge_table(mesh, identify(mesh, identity));
+/// Accepts equal neighbours of the table in turn.
+inline Partners scan(const model::TriangleMesh& mesh, const std::vector<HalfEdgeRecord>& table) {
     Partners partners(mesh.triangles.size());
     for (std::size_t i = 1; i < table.size(); ++i) {
         const HalfEdgeRecord &a = table[i - 1], &b = table[i];
         const bool is_same_edge = a.lower == b.lower && a.upper == b.upper;
         if (!is_same_edge || a.triangle == b.triangle) continue;
         if (partners[a.triangle] || partners[b.triangle]) continue;
+        partners[a.triangle] = b.triangle;
+        partners[b.triangle] = a.triangle;
+    }
+    return partners;
+}
+
+inline Partners reference_edge_bbsa(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
+    return scan(mesh, half_edge_table(mesh, identify(mesh, identity)));
+}
+
+/// What one leaf of both triangles saves over two leaves, in half areas of their boxes.
+inline float saving(const model::TriangleMesh& mesh, std::uint32_t s, std::uint32_t t) {
+    model::Aabb a, b;
+    for (const std::uint32_t v : mesh.triangles[s]) a.extend(mesh.positions[v]);
+    for (const std::uint32_t v : mesh.triangles[t]) b.extend(mesh.positions[v]);
+    model::Aabb both = a;
+    both.extend(b);
+    const auto value = float(double(a.half_area()) + double(b.half_area()) - double(both.half_area()));
+    return std::isnan(value) ? -std::numeric_limits<float>::infinity() : value;
+}
+
+inline Partners reference_sa_saving(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
+    std::vector<HalfEdgeRecord> table = half_edge_table(mesh, identify(mesh, identity));
+    std::ranges::stable_sort(table, [](const HalfEdgeRecord& a, const HalfEdgeRecord& b) {
+        return std::pair(a.lower, a.upper) < std::pair(b.lower, b.upper);
+    });
+    std::vector<std::array<HalfEdgeRecord, 2>> candidates;
+    for (std::size_t i = 1; i < table.size(); ++i) {
+        const HalfEdgeRecord& a = table[i - 1];
+        HalfEdgeRecord b = table[i];
+        if (a.lower != b.lower || a.upper != b.upper) continue;
+        b.area = saving(mesh, a.triangle, b.triangle);
+        candidates.push_back({a, b});
+    }
+    std::ranges::stable_sort(candidates, [](const auto& a, const auto& b) { return a[1].area > b[1].area; });
+    Partners partners(mesh.triangles.size());
+    for (const auto& [a, b] : candidates) {
+        if (a.triangle == b.triangle || partners[a.triangle] || partners[b.triangle]) continue;
         partners[a.triangle] = b.triangle;
         partners[b.triangle] = a.triangle;
     }

@@ -5,6 +5,7 @@
 #include "model/edge_bbsa.hpp"
 #include "model/error.hpp"
 #include "model/pair_layout.hpp"
+#include "model/pair_saving.hpp"
 #include "model/pairing.hpp"
 #include "model/weld.hpp"
 #include "tests/model/pairing_meshes.hpp"
@@ -17,6 +18,8 @@ using namespace rtu::model;
 
 constexpr PairingMethod none{PairingKind::None, 0};
 constexpr PairingMethod edge_bbsa{PairingKind::EdgeBbsa, 0};
+constexpr PairingMethod sa_exchange{PairingKind::SaExchange, 0};
+constexpr PairingMethod sa_saving{PairingKind::SaSaving, 0};
 constexpr std::array identities{EdgeIdentity::Index, EdgeIdentity::Position};
 
 PairingMethod window(std::uint32_t n) { return {PairingKind::Window, n}; }
@@ -62,7 +65,8 @@ TriangleMesh worked_example() {
 }
 
 std::span<const PairCandidate> candidates_of(const TriangleMesh& mesh, ScratchMemory& memory) {
-    return pair_candidates({mesh.triangles, mesh.positions, weld_positions(mesh.positions, memory)}, memory);
+    return edge_bbsa_candidates({mesh.triangles, mesh.positions, weld_positions(mesh.positions, memory)},
+                                memory);
 }
 
 TEST(Pairing, SortsTheHalfEdgesOfTheWorkedExample) {
@@ -71,7 +75,7 @@ TEST(Pairing, SortsTheHalfEdgesOfTheWorkedExample) {
     const auto candidates = candidates_of(mesh, memory);
     std::vector<std::array<std::uint32_t, 3>> columns;  // area and the two triangles
     for (const PairCandidate& c : candidates) {
-        const float area = std::bit_cast<float>(~c.rank);
+        const float area = std::bit_cast<float>(~c.rank & 0x7fff'ffffU);
         columns.push_back({std::uint32_t(area), c.first.triangle(), c.second.triangle()});
     }
     const std::vector<std::array<std::uint32_t, 3>> twins_in_the_paper{
@@ -118,7 +122,11 @@ TEST_P(PairingOfChaos, IsValidAndEqualsTheReference) {
                 expect_valid(mesh, windowed, identity);
                 EXPECT_EQ(partners_of(windowed, count), reference_window(mesh, n, identity)) << n;
             }
-            expect_valid(mesh, pair_triangles(mesh, none, identity), identity);
+            const Pairing saving = pair_triangles(mesh, sa_saving, identity);
+            EXPECT_EQ(partners_of(saving, count), reference_sa_saving(mesh, identity));
+            for (const PairingMethod method : {none, sa_saving, sa_exchange}) {
+                expect_valid(mesh, pair_triangles(mesh, method, identity), identity);
+            }
         }
     }
 }
@@ -214,6 +222,46 @@ TEST(Pairing, ManyTrianglesOnOneEdgeAreNotQuadratic) {
     }
 }
 
+/// Sum over the pairs of what sa_exchange weighs them by, in units of half the area of a box.
+double exchange_weight(const TriangleMesh& mesh, const Pairing& pairing) {
+    double sum = 0;
+    for (const TrianglePair& pair : pairing.pairs) {
+        if (!pair.has_second) continue;
+        const PairAreas areas = pair_areas({mesh.triangles, mesh.positions, {}}, {3 * pair.primitive_ids[0]},
+                                           {3 * pair.primitive_ids[1]});
+        sum += areas.saving() - 0.5 * areas.growth();
+    }
+    return sum;
+}
+
+TEST(SaExchange, TakesANeighbourFromAPairThatDoesNotPay) {
+    // In a plane: 1 meets 0 on edge 0-1, whose box is the larger, and 2 on edge 0-2. 0 reaches far away.
+    const TriangleMesh mesh{
+        "", {{0, 0, 0}, {6, 6, 0}, {6, -5, 0}, {-30, 40, 0}, {0, -5, 0}}, {{0, 1, 3}, {1, 0, 2}, {0, 2, 4}}};
+    // Half areas: 1440, 66 and 30; of 0 and 1 together 1620, of 1 and 2 together 66.
+    EXPECT_EQ(partners_of(pair_triangles(mesh, edge_bbsa, EdgeIdentity::Index), 3), (Partners{1, 0, {}}));
+    EXPECT_EQ(partners_of(pair_triangles(mesh, sa_exchange, EdgeIdentity::Index), 3), (Partners{{}, 2, 1}));
+}
+
+TEST(SaExchange, FindsThePartnerThatIsLeftAnotherFreeNeighbour) {
+    // A strip 3, 0, 1, 2 whose middle edge has the largest box: edge_bbsa pairs 0 and 1, leaves the ends.
+    const TriangleMesh mesh{"",
+                            {{0, 0, 0}, {7, 7, 0}, {6, -6, 0}, {-6, 6, 0}, {0, -6, 0}, {-6, 0, 0}},
+                            {{0, 1, 3}, {1, 0, 2}, {0, 2, 4}, {3, 0, 5}}};
+    EXPECT_EQ(partners_of(pair_triangles(mesh, edge_bbsa, EdgeIdentity::Index), 4), (Partners{1, 0, {}, {}}));
+    EXPECT_EQ(partners_of(pair_triangles(mesh, sa_exchange, EdgeIdentity::Index), 4), (Partners{3, 2, 1, 0}));
+}
+
+TEST(SaExchange, NeverWeighsLessThanEdgeBbsa) {
+    for (std::uint32_t seed = 0; seed < 50; ++seed) {
+        SCOPED_TRACE(seed);
+        const TriangleMesh mesh = jittered_sheet(20, seed);
+        const Pairing greedy = pair_triangles(mesh, edge_bbsa, EdgeIdentity::Position);
+        const Pairing exchanged = pair_triangles(mesh, sa_exchange, EdgeIdentity::Position);
+        EXPECT_GT(exchange_weight(mesh, exchanged), exchange_weight(mesh, greedy));
+    }
+}
+
 TEST(EdgeBoxArea, IsSymmetricAndNeverNan) {
     constexpr float inf = std::numeric_limits<float>::infinity();
     EXPECT_EQ(edge_box_area({0, 0, 0}, {1, 2, 3}), 11.0F);
@@ -231,7 +279,7 @@ TEST(Weld, GivesTheLowestVertexOfEveryPosition) {
 }
 
 TEST(PairingMethod, RoundTripsThroughItsName) {
-    for (const char* name : {"none", "window:2", "window:65536", "edge_bbsa"}) {
+    for (const char* name : {"none", "window:2", "window:65536", "edge_bbsa", "sa_exchange", "sa_saving"}) {
         EXPECT_EQ(to_string(parse_pairing_method(name)), name);
     }
     for (const char* name : {"index", "position"}) EXPECT_EQ(to_string(parse_edge_identity(name)), name);
