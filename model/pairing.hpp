@@ -10,14 +10,22 @@
 
 namespace rtu::model {
 
-enum class PairingKind : std::uint8_t { None, Window, EdgeBbsa, SaExchange, SaSaving };
+enum class PairingKind : std::uint8_t {
+    None,
+    Window,
+    EdgeBbsa,
+    EdgeBbsaCompressed,
+    SaExchange,
+    SaSaving,
+    Maximum
+};
 
 /// The largest N of window:N.
 inline constexpr std::uint32_t max_pairing_window = 65536;
 
 /// Every way to write a pairing method, for help and errors; N in [2, max_pairing_window].
 inline constexpr std::string_view pairing_method_names =
-    "none, window:N, edge_bbsa, sa_exchange or sa_saving";
+    "none, window:N, edge_bbsa, edge_bbsa_compressed, sa_exchange, sa_saving or maximum";
 
 /// A pairing method, defined in docs/pairing.md.
 struct PairingMethod {

@@ -22,9 +22,12 @@ struct NamedKind {
     PairingKind kind;
 };
 
-constexpr std::array kinds{
-    NamedKind{"none", PairingKind::None}, NamedKind{"edge_bbsa", PairingKind::EdgeBbsa},
-    NamedKind{"sa_exchange", PairingKind::SaExchange}, NamedKind{"sa_saving", PairingKind::SaSaving}};
+constexpr std::array kinds{NamedKind{"none", PairingKind::None},
+                           NamedKind{"edge_bbsa", PairingKind::EdgeBbsa},
+                           NamedKind{"edge_bbsa_compressed", PairingKind::EdgeBbsaCompressed},
+                           NamedKind{"sa_exchange", PairingKind::SaExchange},
+                           NamedKind{"sa_saving", PairingKind::SaSaving},
+                           NamedKind{"maximum", PairingKind::Maximum}};
 
 }  // namespace
 

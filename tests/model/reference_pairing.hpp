@@ -39,9 +39,9 @@ inline std::vector<std::uint32_t> identify(const model::TriangleMesh& mesh, mode
     return result;
 }
 
-/// The whole half-edge table in the paper's order, ties by triangle.
-inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& mesh,
-                                                   const std::vector<std::uint32_t>& identity) {
+/// The half-edge table as it is constructed, triangle by triangle.
+inline std::vector<HalfEdgeRecord> half_edges(const model::TriangleMesh& mesh,
+                                              const std::vector<std::uint32_t>& identity) {
     std::vector<HalfEdgeRecord> table;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::uint32_t side = 0; side < 3; ++side) {
@@ -54,6 +54,13 @@ inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& me
             table.push_back({key, std::min(identity[i], identity[j]), std::max(identity[i], identity[j]), t});
         }
     }
+    return table;
+}
+
+/// The whole half-edge table in the paper's order, ties by triangle.
+inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& mesh,
+                                                   const std::vector<std::uint32_t>& identity) {
+    std::vector<HalfEdgeRecord> table = half_edges(mesh, identity);
     std::ranges::stable_sort(table, [](const HalfEdgeRecord& a, const HalfEdgeRecord& b) {
         if (a.area != b.area) return a.area > b.area;
         if (a.lower != b.lower) return a.lower < b.lower;
