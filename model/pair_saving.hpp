@@ -1,6 +1,8 @@
 #pragma once
 
-#include "model/half_edge.hpp"
+#include <cstdint>
+
+#include "model/aabb.hpp"
 #include "model/matching.hpp"
 #include "model/scratch_memory.hpp"
 #include "model/weld.hpp"
@@ -18,9 +20,11 @@ struct PairAreas {
     [[nodiscard]] double growth() const { return double(both) - double(first > second ? first : second); }
 };
 
-/// The areas of the triangles of two different half-edges that lie on the same edge. An area that overflows
-/// is infinite or NaN.
-[[nodiscard]] PairAreas pair_areas(const IdentifiedMesh& mesh, HalfEdge first, HalfEdge second);
+/// The box of one triangle's corners.
+[[nodiscard]] Aabb triangle_box(const IdentifiedMesh& mesh, std::uint32_t triangle);
+
+/// The areas of two triangles' boxes and of the box around both. An area that overflows is infinite or NaN.
+[[nodiscard]] PairAreas pair_areas(const Aabb& first, const Aabb& second);
 
 /// `sa_saving`: greedy by descending saving() in binary32 (NaN counts as -infinity), ties as in edge_bbsa.
 /// What edge_bbsa approximates with the box of the common edge alone.

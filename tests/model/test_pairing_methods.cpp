@@ -26,8 +26,9 @@ double exchange_weight(const TriangleMesh& mesh, const Pairing& pairing) {
     double sum = 0;
     for (const TrianglePair& pair : pairing.pairs) {
         if (!pair.has_second) continue;
-        const PairAreas areas = pair_areas({mesh.triangles, mesh.positions, {}}, {3 * pair.primitive_ids[0]},
-                                           {3 * pair.primitive_ids[1]});
+        const IdentifiedMesh identified{mesh.triangles, mesh.positions, {}};
+        const PairAreas areas = pair_areas(triangle_box(identified, pair.primitive_ids[0]),
+                                           triangle_box(identified, pair.primitive_ids[1]));
         sum += areas.saving() - 0.5 * areas.growth();
     }
     return sum;
