@@ -122,6 +122,70 @@ inline Partners reference_sa_saving(const model::TriangleMesh& mesh, model::Edge
     return partners;
 }
 
+inline double exchange_weight(const model::TriangleMesh& mesh, std::uint32_t s, std::uint32_t t) {
+    model::Aabb a, b;
+    for (const std::uint32_t v : mesh.triangles[s]) a.extend(mesh.positions[v]);
+    for (const std::uint32_t v : mesh.triangles[t]) b.extend(mesh.positions[v]);
+    const double area_a = a.half_area(), area_b = b.half_area();
+    a.extend(b);
+    const double both = a.half_area();
+    return area_a + area_b - both - (both - std::max(area_a, area_b)) / 2;
+}
+
+/// The triangle that follows `t` around each of its sides, in file order; none where it is alone.
+inline Partners side_neighbours(const model::TriangleMesh& mesh, const std::vector<std::uint32_t>& ids,
+                                std::uint32_t t) {
+    Partners neighbours;
+    for (std::uint32_t side = 0; side < 3; ++side) {
+        const auto edge = std::minmax({ids[mesh.triangles[t][side]], ids[mesh.triangles[t][(side + 1) % 3]]});
+        std::vector<std::uint32_t> half_edges;
+        for (std::uint32_t h = 0; h < 3 * mesh.triangles.size(); ++h) {
+            const model::Triangle& u = mesh.triangles[h / 3];
+            if (std::minmax({ids[u[h % 3]], ids[u[(h + 1) % 3]]}) == edge) half_edges.push_back(h);
+        }
+        const auto own = std::ranges::find(half_edges, 3 * t + side) - half_edges.begin();
+        const std::uint32_t next = half_edges[std::size_t(own + 1) % half_edges.size()] / 3;
+        const bool is_edge = edge.first != edge.second && next != t;
+        neighbours.push_back(is_edge ? std::optional(next) : std::nullopt);
+    }
+    return neighbours;
+}
+
+inline Partners reference_sa_exchange(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
+    const std::vector<std::uint32_t> ids = identify(mesh, identity);
+    Partners partners = reference_edge_bbsa(mesh, identity);
+    for (std::uint32_t free = 0; free < partners.size(); ++free) {
+        if (partners[free]) continue;
+        double best_gain = 0;
+        std::optional<std::array<std::optional<std::uint32_t>, 3>> best;  // taken, its partner, the new one's
+        for (const auto& taken : side_neighbours(mesh, ids, free)) {
+            if (!taken || !partners[*taken]) continue;
+            const std::uint32_t left = *partners[*taken];
+            double offer = 0;
+            std::optional<std::uint32_t> new_partner;
+            for (const auto& other : side_neighbours(mesh, ids, left)) {
+                if (!other || *other == free || partners[*other]) continue;
+                const double weight = exchange_weight(mesh, left, *other);
+                if (!(weight > offer)) continue;
+                offer = weight;
+                new_partner = other;
+            }
+            const double gain =
+                exchange_weight(mesh, free, *taken) - exchange_weight(mesh, *taken, left) + offer;
+            if (!(gain > best_gain)) continue;
+            best_gain = gain;
+            best = {taken, left, new_partner};
+        }
+        if (!best) continue;
+        const auto [taken, left, new_partner] = *best;
+        partners[free] = taken;
+        partners[*taken] = free;
+        partners[*left] = new_partner;
+        if (new_partner) partners[*new_partner] = left;
+    }
+    return partners;
+}
+
 /// Whether two triangles have two different vertices in common.
 inline bool share_edge(const model::Triangle& s, const model::Triangle& t,
                        const std::vector<std::uint32_t>& identity) {

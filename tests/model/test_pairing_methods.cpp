@@ -4,7 +4,7 @@
 #include <boost/graph/max_cardinality_matching.hpp>
 
 #include "model/edge_bbsa_compressed.hpp"
-#include "model/pair_saving.hpp"
+#include "model/matching.hpp"
 #include "model/pairing.hpp"
 #include "tests/model/pairing_checks.hpp"
 #include "tests/model/pairing_meshes.hpp"
@@ -21,15 +21,10 @@ constexpr PairingMethod sa_exchange{PairingKind::SaExchange, 0};
 constexpr PairingMethod sa_saving{PairingKind::SaSaving, 0};
 constexpr PairingMethod maximum{PairingKind::Maximum, 0};
 
-/// Sum over the pairs of what sa_exchange weighs them by, in units of half the area of a box.
-double exchange_weight(const TriangleMesh& mesh, const Pairing& pairing) {
+double total_weight(const TriangleMesh& mesh, const Pairing& pairing) {
     double sum = 0;
     for (const TrianglePair& pair : pairing.pairs) {
-        if (!pair.has_second) continue;
-        const IdentifiedMesh identified{mesh.triangles, mesh.positions, {}};
-        const PairAreas areas = pair_areas(triangle_box(identified, pair.primitive_ids[0]),
-                                           triangle_box(identified, pair.primitive_ids[1]));
-        sum += areas.saving() - 0.5 * areas.growth();
+        if (pair.has_second) sum += exchange_weight(mesh, pair.primitive_ids[0], pair.primitive_ids[1]);
     }
     return sum;
 }
@@ -58,7 +53,32 @@ TEST(SaExchange, NeverWeighsLessThanEdgeBbsa) {
         const TriangleMesh mesh = jittered_sheet(20, seed);
         const Pairing greedy = pair_triangles(mesh, edge_bbsa, EdgeIdentity::Position);
         const Pairing exchanged = pair_triangles(mesh, sa_exchange, EdgeIdentity::Position);
-        EXPECT_GT(exchange_weight(mesh, exchanged), exchange_weight(mesh, greedy));
+        EXPECT_GT(total_weight(mesh, exchanged), total_weight(mesh, greedy));
+    }
+}
+
+TEST(SaExchange, EqualsTheReference) {
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        SCOPED_TRACE(seed);
+        for (const TriangleMesh& mesh : {chaotic_mesh(seed), jittered_sheet(8, seed)}) {
+            for (const EdgeIdentity identity : identities) {
+                EXPECT_EQ(partners_of(pair_triangles(mesh, sa_exchange, identity), mesh.triangles.size()),
+                          reference_sa_exchange(mesh, identity));
+            }
+        }
+    }
+}
+
+TEST(Matching, FreesBothTrianglesOfAPair) {
+    ScratchMemory memory(1 << 12);
+    Matching matching(4, memory);
+    EXPECT_TRUE(matching.try_pair({3}, {7}));
+    EXPECT_FALSE(matching.try_pair({4}, {9})) << "triangle 1 is taken";
+    matching.unpair(2);
+    EXPECT_EQ(matching.pair_count(), 0U);
+    for (std::uint32_t t = 0; t < 4; ++t) {
+        EXPECT_TRUE(matching.is_free(t));
+        EXPECT_EQ(matching.partner(t).triangle(), t);
     }
 }
 
@@ -118,6 +138,8 @@ TEST(CompressedEdge, KeepsTheOrderOfAreasAndIsSymmetric) {
     EXPECT_EQ(key({0, 1, 7}, {3, 3, 3}), key({3, 3, 3}, {0, 1, 7}));
     // Midpoint (4, 2, 1) of 8: 2^23, 2^22, 2^21 in the three fields; area 0: the largest rank.
     EXPECT_EQ(key({4, 2, 0}, {4, 2, 2}), (CompressedEdgeKey{0xffffff80, 0x00004000, 0x00200000}));
+    // Area 12 is 0x41400000; without the low 7 bits 0x828000, and its complement in 24 bits 0x7d7fff.
+    EXPECT_EQ(key({0, 0, 0}, {2, 2, 2})[0] >> 8, 0x7d7fffU);
     EXPECT_EQ(key({8, 8, 8}, {8, 8, 8})[2] & 0xffffffU, 0xffffffU) << "the box's end stays in the last step";
 }
 
