@@ -34,7 +34,8 @@ constexpr const char* footer =
 void add_scene_options(CLI::App& run, RunArguments& arguments) {
     run.add_option("SCENE", arguments.scenes, "glTF 2.0 files (.gltf, .glb); none: the built-in scene")
         ->type_name("");
-    run.add_option("--pairing", arguments.pairing, "how triangles become pairs: none, window:N or edge_bbsa")
+    run.add_option("--pairing", arguments.pairing,
+                   "how triangles become pairs: " + std::string(model::pairing_method_names))
         ->type_name("METHOD")
         ->capture_default_str();
     run.add_option("--edge-identity", arguments.edge_identity,

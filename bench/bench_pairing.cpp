@@ -1,22 +1,28 @@
-// Triangles a second of pair_triangles, by position, on one thread.
+// Triangles a second of pair_triangles, by position, and its sort against the standard library's.
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bench_scenes.hpp"
+#include "model/edge_bbsa.hpp"
 #include "model/pairing.hpp"
+#include "model/radix_sort.hpp"
+#include "model/weld.hpp"
 
 namespace rtu::bench {
 namespace {
 
 using namespace rtu::model;
 
-/// A bumpy sheet of 2 n^2 triangles in random order.
-TriangleMesh shuffled_sheet(std::uint32_t n) {
+/// A bumpy sheet of 2 n^2 triangles, row by row.
+TriangleMesh sheet(std::uint32_t n) {
     std::mt19937 random(1);
     TriangleMesh mesh;
     for (std::uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
@@ -30,6 +36,12 @@ TriangleMesh shuffled_sheet(std::uint32_t n) {
             mesh.triangles.push_back({a, c + 1, c});
         }
     }
+    return mesh;
+}
+
+TriangleMesh shuffled_sheet(std::uint32_t n) {
+    std::mt19937 random(2);
+    TriangleMesh mesh = sheet(n);
     for (std::size_t i = mesh.triangles.size(); i > 1; --i) {
         std::swap(mesh.triangles[i - 1], mesh.triangles[random() % i]);
     }
@@ -60,12 +72,82 @@ void pair_scene(benchmark::State& state, const char* name, const char* method) {
     pair_mesh(state, load_scene(name), parse_pairing_method(method));
 }
 
+/// Time per triangle from 10 k to 10 M triangles; the sheet's triangles in file order, so that only the
+/// amount of memory changes.
+void pair_size(benchmark::State& state, const char* method) {
+    pair_mesh(state, sheet(std::uint32_t(state.range(0))), parse_pairing_method(method));
+}
+
+/// The candidates of a scene before they are sorted.
+std::vector<PairCandidate> unsorted_candidates(const TriangleMesh& mesh) {
+    ScratchMemory memory(mesh.triangles.size() * 256 + mesh.positions.size() * 64 + 4096);
+    const IdentifiedMesh identified{mesh.triangles, mesh.positions, weld_positions(mesh.positions, memory)};
+    const auto sorted = edge_bbsa_candidates(identified, memory);
+    std::vector<PairCandidate> candidates(sorted.begin(), sorted.end());
+    std::ranges::sort(candidates, {}, [](const PairCandidate& c) { return c.first.index; });
+    return candidates;
+}
+
+template <class Sort>
+void sort_candidates(benchmark::State& state, const char* name, Sort sort) {
+    if (!has_scene(name)) {
+        state.SkipWithError("the scene is not there");
+        return;
+    }
+    const std::vector<PairCandidate> unsorted = unsorted_candidates(load_scene(name));
+    std::vector<PairCandidate> items(unsorted.size()), scratch(unsorted.size());
+    while (state.KeepRunning()) {
+        state.PauseTiming();
+        items = unsorted;
+        state.ResumeTiming();
+        sort(std::span(items), std::span(scratch));
+        benchmark::DoNotOptimize(items.data());
+    }
+}
+
+constexpr auto rank_of = [](const PairCandidate& c) { return c.rank; };
+constexpr auto by_radix = [](std::span<PairCandidate> items, std::span<PairCandidate> scratch) {
+    radix_sort(items, scratch, rank_of);
+};
+constexpr auto by_std_sort = [](std::span<PairCandidate> items, std::span<PairCandidate>) {
+    std::ranges::sort(items, {}, rank_of);
+};
+constexpr auto by_std_stable_sort = [](std::span<PairCandidate> items, std::span<PairCandidate>) {
+    std::ranges::stable_sort(items, {}, rank_of);
+};
+
 BENCHMARK_CAPTURE(pair_sheet, window_2, "window:2")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pair_sheet, edge_bbsa, "edge_bbsa")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_sheet, sa_exchange, "sa_exchange")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pair_scene, bunny_window_2, "bunny", "window:2")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pair_scene, bunny_edge_bbsa, "bunny", "edge_bbsa")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene, bunny_edge_bbsa_compressed, "bunny", "edge_bbsa_compressed")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene, bunny_sa_exchange, "bunny", "sa_exchange")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene, bunny_sa_saving, "bunny", "sa_saving")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene, bunny_maximum, "bunny", "maximum")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pair_scene, dragon_window_2, "dragon", "window:2")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pair_scene, dragon_edge_bbsa, "dragon", "edge_bbsa")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene, dragon_edge_bbsa_compressed, "dragon", "edge_bbsa_compressed")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene, dragon_sa_exchange, "dragon", "sa_exchange")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene, dragon_sa_saving, "dragon", "sa_saving")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene, dragon_maximum, "dragon", "maximum")->Unit(benchmark::kMillisecond);
+// 2 n^2 triangles.
+BENCHMARK_CAPTURE(pair_size, edge_bbsa, "edge_bbsa")
+    ->Arg(71)
+    ->Arg(224)
+    ->Arg(707)
+    ->Arg(2236)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sort_candidates, bunny_radix, "bunny", by_radix)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sort_candidates, bunny_std_sort, "bunny", by_std_sort)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sort_candidates, bunny_std_stable_sort, "bunny", by_std_stable_sort)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sort_candidates, dragon_radix, "dragon", by_radix)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sort_candidates, dragon_std_sort, "dragon", by_std_sort)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(sort_candidates, dragon_std_stable_sort, "dragon", by_std_stable_sort)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace rtu::bench

@@ -33,6 +33,15 @@ class Matching {
         return true;
     }
 
+    /// Frees a paired triangle and its partner.
+    void unpair(std::uint32_t triangle) {
+        const std::uint32_t other = partner_[triangle].triangle();
+        is_paired_[triangle] = is_paired_[other] = false;
+        partner_[triangle] = {3 * triangle};
+        partner_[other] = {3 * other};
+        --pair_count_;
+    }
+
   private:
     std::vector<bool> is_paired_;  // one bit a triangle stays in the cache
     std::span<HalfEdge> partner_;

@@ -5,10 +5,14 @@
 #include <span>
 
 #include "model/edge_bbsa.hpp"
+#include "model/edge_bbsa_compressed.hpp"
 #include "model/edge_table.hpp"
 #include "model/error.hpp"
 #include "model/matching.hpp"
+#include "model/maximum_matching.hpp"
 #include "model/pair_layout.hpp"
+#include "model/pair_saving.hpp"
+#include "model/sa_exchange.hpp"
 #include "model/weld.hpp"
 #include "model/window_pairing.hpp"
 
@@ -17,7 +21,8 @@ namespace {
 
 /// Room for everything that a method takes from the scratch memory.
 std::size_t scratch_bytes(const TriangleMesh& mesh) {
-    constexpr std::size_t a_triangle = 3 * (sizeof(BucketedHalfEdge) + 2 * sizeof(PairCandidate));
+    constexpr std::size_t a_triangle =
+        3 * (sizeof(BucketedHalfEdge) + 2 * sizeof(PairCandidate)) + sizeof(HalfEdge);
     constexpr std::size_t a_vertex = 6 * sizeof(std::uint32_t);  // up to 4 slots of the hash table
     constexpr std::size_t rounding = 1024;
     return mesh.triangles.size() * a_triangle + mesh.positions.size() * a_vertex + rounding;
@@ -38,7 +43,15 @@ Matching match(const IdentifiedMesh& mesh, PairingMethod method, ScratchMemory& 
         case PairingKind::Window:
             return match_in_window(mesh, method.window, memory);
         case PairingKind::EdgeBbsa:
-            return match_greedily(pair_candidates(mesh, memory), triangle_count, memory);
+            return match_greedily(edge_bbsa_candidates(mesh, memory), triangle_count, memory);
+        case PairingKind::EdgeBbsaCompressed:
+            return match_compressed(mesh, memory);
+        case PairingKind::SaExchange:
+            return match_with_exchanges(mesh, memory);
+        case PairingKind::SaSaving:
+            return match_by_saving(mesh, memory);
+        case PairingKind::Maximum:
+            return match_maximum(mesh, memory);
     }
     fail_check(__FILE__, __LINE__, "unknown pairing kind");
 }

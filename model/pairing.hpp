@@ -10,12 +10,24 @@
 
 namespace rtu::model {
 
-enum class PairingKind : std::uint8_t { None, Window, EdgeBbsa };
+enum class PairingKind : std::uint8_t {
+    None,
+    Window,
+    EdgeBbsa,
+    EdgeBbsaCompressed,
+    SaExchange,
+    SaSaving,
+    Maximum
+};
 
 /// The largest N of window:N.
 inline constexpr std::uint32_t max_pairing_window = 65536;
 
-/// A pairing method as written on the command line: `none`, `window:N` (N in [2, 65536]) or `edge_bbsa`.
+/// Every way to write a pairing method, for help and errors; N in [2, max_pairing_window].
+inline constexpr std::string_view pairing_method_names =
+    "none, window:N, edge_bbsa, edge_bbsa_compressed, sa_exchange, sa_saving or maximum";
+
+/// A pairing method, defined in docs/pairing.md.
 struct PairingMethod {
     PairingKind kind = PairingKind::EdgeBbsa;
     std::uint32_t window = 0;  ///< N of window:N, else 0
@@ -47,7 +59,8 @@ struct Pairing {
 
 /// Pairs the triangles of `mesh`. Deterministic. Pairs store file vertex indices whatever the identity; where
 /// the identity is by position, the two triangles' common corners may differ in index but not in position.
-/// Sources: window:N and edge_bbsa are [AF] (docs/model.md).
+/// Sources: window:N, edge_bbsa and edge_bbsa_compressed are [AF] (docs/model.md); all are defined in
+/// docs/pairing.md.
 [[nodiscard]] Pairing pair_triangles(const TriangleMesh& mesh, PairingMethod method, EdgeIdentity identity);
 
 }  // namespace rtu::model

@@ -1,3 +1,4 @@
+#include <array>
 #include <charconv>
 #include <optional>
 
@@ -16,27 +17,36 @@ std::optional<std::uint32_t> parse_window(std::string_view digits) {
     return is_number && window >= 2 && window <= max_pairing_window ? std::optional(window) : std::nullopt;
 }
 
+struct NamedKind {
+    std::string_view name;
+    PairingKind kind;
+};
+
+constexpr std::array kinds{NamedKind{"none", PairingKind::None},
+                           NamedKind{"edge_bbsa", PairingKind::EdgeBbsa},
+                           NamedKind{"edge_bbsa_compressed", PairingKind::EdgeBbsaCompressed},
+                           NamedKind{"sa_exchange", PairingKind::SaExchange},
+                           NamedKind{"sa_saving", PairingKind::SaSaving},
+                           NamedKind{"maximum", PairingKind::Maximum}};
+
 }  // namespace
 
 PairingMethod parse_pairing_method(std::string_view text) {
-    if (text == "none") return {PairingKind::None, 0};
-    if (text == "edge_bbsa") return {PairingKind::EdgeBbsa, 0};
+    for (const auto& [name, kind] : kinds) {
+        if (text == name) return {kind, 0};
+    }
     if (text.starts_with(window_prefix)) {
         const auto window = parse_window(text.substr(window_prefix.size()));
         if (window) return {PairingKind::Window, *window};
     }
-    throw Error("pairing: expected none, window:N with N from 2 to {}, or edge_bbsa, got '{}'",
+    throw Error("pairing: expected {}, with N from 2 to {}, got '{}'", pairing_method_names,
                 max_pairing_window, text);
 }
 
 std::string to_string(PairingMethod method) {
-    switch (method.kind) {
-        case PairingKind::None:
-            return "none";
-        case PairingKind::Window:
-            return fmt::format("{}{}", window_prefix, method.window);
-        case PairingKind::EdgeBbsa:
-            return "edge_bbsa";
+    if (method.kind == PairingKind::Window) return fmt::format("{}{}", window_prefix, method.window);
+    for (const auto& [name, kind] : kinds) {
+        if (method.kind == kind) return std::string(name);
     }
     fail_check(__FILE__, __LINE__, "unknown pairing kind");
 }

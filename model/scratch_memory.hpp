@@ -1,7 +1,10 @@
 #pragma once
 
+#include <sys/mman.h>
+
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 
@@ -15,8 +18,7 @@ class ScratchMemory {
   public:
     /// Only what is touched takes memory, so a generous capacity costs nothing.
     explicit ScratchMemory(std::size_t capacity_bytes)
-        : block_(std::make_unique_for_overwrite<std::byte[]>(capacity_bytes)),
-          capacity_bytes_(capacity_bytes) {}
+        : block_(allocate(capacity_bytes)), capacity_bytes_(capacity_bytes) {}
 
     /// An array of `count` indeterminate values, until the innermost scope ends. Throws std::logic_error
     /// beyond the capacity.
@@ -47,7 +49,21 @@ class ScratchMemory {
 
   private:
     static constexpr std::size_t alignment = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
-    std::unique_ptr<std::byte[]> block_;
+    static constexpr std::align_val_t huge_page{std::size_t{1} << 21};
+    struct Free {
+        void operator()(std::byte* block) const { ::operator delete[](block, huge_page); }
+    };
+    using Block = std::unique_ptr<std::byte[], Free>;
+
+    /// Asks for huge pages: 4 KiB ones cost a fault each at their first touch, and random accesses to
+    /// tens of MiB miss the address translation's cache. Where there are none the request does nothing.
+    static Block allocate(std::size_t size_bytes) {
+        Block block(static_cast<std::byte*>(::operator new[](size_bytes, huge_page)));
+        madvise(block.get(), size_bytes, MADV_HUGEPAGE);
+        return block;
+    }
+
+    Block block_;
     std::size_t capacity_bytes_;
     std::size_t used_bytes_ = 0;
 };

@@ -65,4 +65,23 @@ inline model::TriangleMesh split_sheet(std::uint32_t n, std::uint32_t seed) {
     return mesh;
 }
 
+/// A crumpled sheet of 2 n^2 triangles of many shapes: vertices off the grid, diagonals at random.
+inline model::TriangleMesh jittered_sheet(std::uint32_t n, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto jitter = [&random] { return float(below(random, 900)) * 0.001F; };
+    model::TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
+        const float x = jitter(), y = jitter(), z = jitter();
+        mesh.positions.push_back({float(i % (n + 1)) + x, y, float(i / (n + 1)) + z});
+    }
+    for (std::uint32_t i = 0; i < n * n; ++i) {
+        const std::uint32_t a = i / n * (n + 1) + i % n, b = a + 1, c = a + n + 1, d = c + 1;
+        const bool is_falling = below(random, 2) == 0;
+        mesh.triangles.push_back(is_falling ? model::Triangle{a, b, d} : model::Triangle{a, b, c});
+        mesh.triangles.push_back(is_falling ? model::Triangle{a, d, c} : model::Triangle{b, d, c});
+    }
+    shuffle_triangles(mesh, random);
+    return mesh;
+}
+
 }  // namespace rtu::test

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "model/mesh.hpp"
@@ -38,9 +39,9 @@ inline std::vector<std::uint32_t> identify(const model::TriangleMesh& mesh, mode
     return result;
 }
 
-/// The whole half-edge table in the paper's order, ties by triangle.
-inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& mesh,
-                                                   const std::vector<std::uint32_t>& identity) {
+/// The half-edge table as it is constructed, triangle by triangle.
+inline std::vector<HalfEdgeRecord> half_edges(const model::TriangleMesh& mesh,
+                                              const std::vector<std::uint32_t>& identity) {
     std::vector<HalfEdgeRecord> table;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::uint32_t side = 0; side < 3; ++side) {
@@ -53,6 +54,13 @@ inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& me
             table.push_back({key, std::min(identity[i], identity[j]), std::max(identity[i], identity[j]), t});
         }
     }
+    return table;
+}
+
+/// The whole half-edge table in the paper's order, ties by triangle.
+inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& mesh,
+                                                   const std::vector<std::uint32_t>& identity) {
+    std::vector<HalfEdgeRecord> table = half_edges(mesh, identity);
     std::ranges::stable_sort(table, [](const HalfEdgeRecord& a, const HalfEdgeRecord& b) {
         if (a.area != b.area) return a.area > b.area;
         if (a.lower != b.lower) return a.lower < b.lower;
@@ -62,8 +70,8 @@ inline std::vector<HalfEdgeRecord> half_edge_table(const model::TriangleMesh& me
     return table;
 }
 
-inline Partners reference_edge_bbsa(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
-    const std::vector<HalfEdgeRecord> table = half_edge_table(mesh, identify(mesh, identity));
+/// Accepts equal neighbours of the table in turn.
+inline Partners scan(const model::TriangleMesh& mesh, const std::vector<HalfEdgeRecord>& table) {
     Partners partners(mesh.triangles.size());
     for (std::size_t i = 1; i < table.size(); ++i) {
         const HalfEdgeRecord &a = table[i - 1], &b = table[i];
@@ -72,6 +80,108 @@ inline Partners reference_edge_bbsa(const model::TriangleMesh& mesh, model::Edge
         if (partners[a.triangle] || partners[b.triangle]) continue;
         partners[a.triangle] = b.triangle;
         partners[b.triangle] = a.triangle;
+    }
+    return partners;
+}
+
+inline Partners reference_edge_bbsa(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
+    return scan(mesh, half_edge_table(mesh, identify(mesh, identity)));
+}
+
+/// What one leaf of both triangles saves over two leaves, in half areas of their boxes.
+inline float saving(const model::TriangleMesh& mesh, std::uint32_t s, std::uint32_t t) {
+    model::Aabb a, b;
+    for (const std::uint32_t v : mesh.triangles[s]) a.extend(mesh.positions[v]);
+    for (const std::uint32_t v : mesh.triangles[t]) b.extend(mesh.positions[v]);
+    model::Aabb both = a;
+    both.extend(b);
+    const auto value = float(double(a.half_area()) + double(b.half_area()) - double(both.half_area()));
+    return std::isnan(value) ? -std::numeric_limits<float>::infinity() : value;
+}
+
+inline Partners reference_sa_saving(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
+    std::vector<HalfEdgeRecord> table = half_edge_table(mesh, identify(mesh, identity));
+    std::ranges::stable_sort(table, [](const HalfEdgeRecord& a, const HalfEdgeRecord& b) {
+        return std::pair(a.lower, a.upper) < std::pair(b.lower, b.upper);
+    });
+    std::vector<std::array<HalfEdgeRecord, 2>> candidates;
+    for (std::size_t i = 1; i < table.size(); ++i) {
+        const HalfEdgeRecord& a = table[i - 1];
+        HalfEdgeRecord b = table[i];
+        if (a.lower != b.lower || a.upper != b.upper) continue;
+        b.area = saving(mesh, a.triangle, b.triangle);
+        candidates.push_back({a, b});
+    }
+    std::ranges::stable_sort(candidates, [](const auto& a, const auto& b) { return a[1].area > b[1].area; });
+    Partners partners(mesh.triangles.size());
+    for (const auto& [a, b] : candidates) {
+        if (a.triangle == b.triangle || partners[a.triangle] || partners[b.triangle]) continue;
+        partners[a.triangle] = b.triangle;
+        partners[b.triangle] = a.triangle;
+    }
+    return partners;
+}
+
+inline double exchange_weight(const model::TriangleMesh& mesh, std::uint32_t s, std::uint32_t t) {
+    model::Aabb a, b;
+    for (const std::uint32_t v : mesh.triangles[s]) a.extend(mesh.positions[v]);
+    for (const std::uint32_t v : mesh.triangles[t]) b.extend(mesh.positions[v]);
+    const double area_a = a.half_area(), area_b = b.half_area();
+    a.extend(b);
+    const double both = a.half_area();
+    return area_a + area_b - both - (both - std::max(area_a, area_b)) / 2;
+}
+
+/// The triangle that follows `t` around each of its sides, in file order; none where it is alone.
+inline Partners side_neighbours(const model::TriangleMesh& mesh, const std::vector<std::uint32_t>& ids,
+                                std::uint32_t t) {
+    Partners neighbours;
+    for (std::uint32_t side = 0; side < 3; ++side) {
+        const auto edge = std::minmax({ids[mesh.triangles[t][side]], ids[mesh.triangles[t][(side + 1) % 3]]});
+        std::vector<std::uint32_t> half_edges;
+        for (std::uint32_t h = 0; h < 3 * mesh.triangles.size(); ++h) {
+            const model::Triangle& u = mesh.triangles[h / 3];
+            if (std::minmax({ids[u[h % 3]], ids[u[(h + 1) % 3]]}) == edge) half_edges.push_back(h);
+        }
+        const auto own = std::ranges::find(half_edges, 3 * t + side) - half_edges.begin();
+        const std::uint32_t next = half_edges[std::size_t(own + 1) % half_edges.size()] / 3;
+        const bool is_edge = edge.first != edge.second && next != t;
+        neighbours.push_back(is_edge ? std::optional(next) : std::nullopt);
+    }
+    return neighbours;
+}
+
+inline Partners reference_sa_exchange(const model::TriangleMesh& mesh, model::EdgeIdentity identity) {
+    const std::vector<std::uint32_t> ids = identify(mesh, identity);
+    Partners partners = reference_edge_bbsa(mesh, identity);
+    for (std::uint32_t free = 0; free < partners.size(); ++free) {
+        if (partners[free]) continue;
+        double best_gain = 0;
+        std::optional<std::array<std::optional<std::uint32_t>, 3>> best;  // taken, its partner, the new one's
+        for (const auto& taken : side_neighbours(mesh, ids, free)) {
+            if (!taken || !partners[*taken]) continue;
+            const std::uint32_t left = *partners[*taken];
+            double offer = 0;
+            std::optional<std::uint32_t> new_partner;
+            for (const auto& other : side_neighbours(mesh, ids, left)) {
+                if (!other || *other == free || partners[*other]) continue;
+                const double weight = exchange_weight(mesh, left, *other);
+                if (!(weight > offer)) continue;
+                offer = weight;
+                new_partner = other;
+            }
+            const double gain =
+                exchange_weight(mesh, free, *taken) - exchange_weight(mesh, *taken, left) + offer;
+            if (!(gain > best_gain)) continue;
+            best_gain = gain;
+            best = {taken, left, new_partner};
+        }
+        if (!best) continue;
+        const auto [taken, left, new_partner] = *best;
+        partners[free] = taken;
+        partners[*taken] = free;
+        partners[*left] = new_partner;
+        if (new_partner) partners[*new_partner] = left;
     }
     return partners;
 }
