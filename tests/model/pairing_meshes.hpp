@@ -71,8 +71,9 @@ inline model::TriangleMesh jittered_sheet(std::uint32_t n, std::uint32_t seed) {
     const auto jitter = [&random] { return float(below(random, 900)) * 0.001F; };
     model::TriangleMesh mesh;
     for (std::uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
+        const std::uint32_t column = i % (n + 1), row = i / (n + 1);
         const float x = jitter(), y = jitter(), z = jitter();
-        mesh.positions.push_back({float(i % (n + 1)) + x, y, float(i / (n + 1)) + z});
+        mesh.positions.push_back({float(column) + x, y, float(row) + z});
     }
     for (std::uint32_t i = 0; i < n * n; ++i) {
         const std::uint32_t a = i / n * (n + 1) + i % n, b = a + 1, c = a + n + 1, d = c + 1;

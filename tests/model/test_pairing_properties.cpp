@@ -63,8 +63,10 @@ TriangleMesh touching_sheets(bool share_edge) {
 /// Needles, points, lines and proper triangles on shared vertices.
 TriangleMesh degenerate_strip() {
     TriangleMesh mesh{"degenerate", {}, {}};
-    for (std::uint32_t i = 0; i < 12; ++i)
-        mesh.positions.push_back({float(i / 2), i % 2 == 0 ? 0.F : 1.F, 0});
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        mesh.positions.push_back({float(i), 0, 0});
+        mesh.positions.push_back({float(i), 1, 0});
+    }
     for (std::uint32_t i = 0; i + 4 < 12; ++i) {
         mesh.triangles.push_back({i, i + 1, i + 2});
         mesh.triangles.push_back({i, i + 2, i + 4});
