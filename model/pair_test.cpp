@@ -44,7 +44,7 @@ bool is_missed(float u, float v, float w, Reach reach) {
 }
 
 // Exact sides of three corners as they were given. The area cannot be zero when the sides agree.
-std::optional<Hit> intersect(const std::array<Vec3, 3>& corners, CornerOrder order, const RaySetup& ray) {
+std::optional<Hit> intersect(const std::array<Vec3, 3>& corners, const RaySetup& ray) {
     const Line line{ray.origin, ray.direction, ray.kz};
     const std::array<SeenPoint, 3> points{
         SeenPoint{line, corners[0]}, {line, corners[1]}, {line, corners[2]}};
@@ -61,15 +61,22 @@ std::optional<Hit> intersect(const std::array<Vec3, 3>& corners, CornerOrder ord
     const double area = weights[0] + weights[1] + weights[2];
     const double depth = weights[0] * points[0].seen[ray.kz] + weights[1] * points[1].seen[ray.kz] +
                          weights[2] * points[2].seen[ray.kz];
-    return Hit{float(depth / (area * double(ray.direction[ray.kz]))),
-               float(weights[order.stored_corner(1)] / area), float(weights[order.stored_corner(2)] / area)};
+    return Hit{float(depth / (area * double(ray.direction[ray.kz]))), float(weights[1] / area),
+               float(weights[2] / area)};
+}
+
+// In the file's order, so that a hit does not depend on how its triangle is stored.
+std::array<Vec3, 3> corners_of(const LeafPair& pair, std::uint32_t triangle) {
+    const auto& v = pair.vertices;
+    const std::array<Vec3, 3> stored{v[0], v[1 + triangle], v[2 + triangle]};
+    const CornerOrder order = pair.corner_order(triangle);
+    return {stored[order.stored_corner(0)], stored[order.stored_corner(1)], stored[order.stored_corner(2)]};
 }
 
 void intersect(const LeafPair& pair, std::uint32_t triangle, const RaySetup& ray, PairHits& result) {
     if (pair.is_degenerate(triangle)) return;
     ++result.exact_tests;
-    const auto& v = pair.vertices;
-    const auto hit = intersect({v[0], v[1 + triangle], v[2 + triangle]}, pair.corner_order(triangle), ray);
+    const auto hit = intersect(corners_of(pair, triangle), ray);
     if (!hit) return;
     result.is_pierced[triangle] = true;
     result.hits[triangle] = *hit;

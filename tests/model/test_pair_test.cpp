@@ -70,8 +70,8 @@ TEST(PairTest, MapsBarycentricsBackThroughEveryCornerOrder) {
             pair.vertices[3] = pair.vertices[2];
             const PairHits found = test_pair(make_leaf_pair(pair, one_triangle.positions), ray);
             ASSERT_TRUE(found.is_pierced[0]);
-            EXPECT_FLOAT_EQ(found.hits[0].u, expected.u);
-            EXPECT_FLOAT_EQ(found.hits[0].v, expected.v);
+            EXPECT_EQ(found.hits[0].u, expected.u);
+            EXPECT_EQ(found.hits[0].v, expected.v);
         }
     }
 }
