@@ -95,7 +95,11 @@ Json scenes(const PairingReport& report) {
                          {"vertex_count", scene.facts.vertex_count},
                          {"degenerate_count", scene.facts.degenerate_count},
                          {"input_hash", scene.input_hash},
-                         {"camera_source", scene.camera_source}});
+                         {"camera_source", scene.camera_source},
+                         {"prescan",
+                          {{"is_well_paired", scene.prescan.is_well_paired},
+                           {"scanned_triangles", scene.prescan.scanned_triangles},
+                           {"lone_triangles", scene.prescan.lone_triangles}}}});
     }
     return array;
 }

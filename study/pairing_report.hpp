@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/pairing_prescan.hpp"
 #include "study/pairing_options.hpp"
 #include "study/pairing_paper.hpp"
 #include "study/pairing_run.hpp"
@@ -65,6 +66,7 @@ struct PairingScene {
     std::string input_hash;
     model::Camera camera;  ///< before the rotation
     std::string camera_source;
+    model::PairingPrescan prescan;  ///< whether [AF] would run its pairing at all
 };
 
 /// Everything that a comparison reports. Deterministic outside the columns of host time.

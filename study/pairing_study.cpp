@@ -83,8 +83,8 @@ PairingReport run_pairing_studies(const PairingOptions& options, std::span<const
         add_rows(bench, options, report.rows);
         for (PairingStudyTable& table : report.studies) add_study(bench, options, table);
         const LoadedScene& scene = bench.scene();
-        report.scenes.push_back(
-            {scene.facts, scene.input_hash, bench.camera().camera, bench.camera().source});
+        report.scenes.push_back({scene.facts, scene.input_hash, bench.camera().camera, bench.camera().source,
+                                 model::prescan_pairing(scene.mesh, options.edge_identity)});
     }
     return report;
 }

@@ -56,8 +56,9 @@ std::string pairing_facts(const PairingReport& report) {
                            fmt::join(report.rotation, ", "));
     }
     for (const PairingScene& scene : report.scenes) {
-        out += fmt::format("Scene {}: {} triangles, hash {}, camera {}.\n", scene.facts.name,
-                           grouped(scene.facts.triangle_count), scene.input_hash, scene.camera_source);
+        out += fmt::format("Scene {}: {} triangles, hash {}, camera {}. Pre-scan: {}.\n", scene.facts.name,
+                           grouped(scene.facts.triangle_count), scene.input_hash, scene.camera_source,
+                           scene.prescan.is_well_paired ? "paired already, leave it alone" : "pair it");
     }
     return out;
 }
