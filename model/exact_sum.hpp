@@ -5,34 +5,39 @@
 
 namespace rtu::model {
 
-/// The exact sum of N doubles as a non-overlapping expansion [SHE97]: components of growing magnitude whose
-/// sum is the sum of the summands, without rounding. Summands may have any sign and size as long as no
-/// partial sum overflows.
+/// The exact sum of N doubles as an expansion [SHE97]: non-zero components of growing magnitude, whose sum is
+/// that of the summands without rounding. Rounding to nearest even keeps them non-adjacent, so that the
+/// largest outweighs the rest. Summands may have any sign and size as long as no partial sum overflows.
 template <std::size_t N>
 class ExactSum {
   public:
     explicit ExactSum(const std::array<double, N>& summands) {
-        for (std::size_t length = 0; length < N; ++length) {
-            double carry = summands[length];
-            for (std::size_t i = 0; i < length; ++i) {
-                const double sum = carry + components_[i];
-                const double b_part = sum - carry;
-                const double a_part = sum - b_part;
-                components_[i] = (carry - a_part) + (components_[i] - b_part);
-                carry = sum;
-            }
-            components_[length] = carry;
-        }
+        for (const double summand : summands) add(summand);
     }
     /// The sum rounded to a double, to within an ulp: it has the exact sign, and is zero only if the sum is.
     [[nodiscard]] double value() const {
         double sum = 0;
-        for (const double component : components_) sum += component;
+        for (std::size_t i = 0; i < count_; ++i) sum += components_[i];
         return sum;
     }
 
   private:
+    void add(double carry) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const double sum = carry + components_[i];
+            const double b_part = sum - carry;
+            const double a_part = sum - b_part;
+            const double error = (carry - a_part) + (components_[i] - b_part);
+            if (error != 0) components_[kept++] = error;
+            carry = sum;
+        }
+        if (carry != 0) components_[kept++] = carry;
+        count_ = kept;
+    }
+
     std::array<double, N> components_{};
+    std::size_t count_ = 0;
 };
 
 }  // namespace rtu::model

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "model/exact_edge.hpp"
+#include "model/exact_triangle.hpp"
 
 namespace rtu::model {
 
@@ -33,8 +33,8 @@ Reach larger(Reach a, Reach b) { return {std::max(a.across, b.across), std::max(
 float edge_function(Sheared p, Sheared q) { return p.x * q.y - p.y * q.x; }
 
 // Whether the edge functions of a triangle's three sides have different signs beyond doubt. The bound on
-// their rounding errors is derived in docs/model.md; where products could overflow there is no doubt to
-// spare.
+// their rounding errors is derived in docs/model.md; one so large that products may have overflowed proves
+// nothing.
 bool is_missed(float u, float v, float w, Reach reach) {
     constexpr float scale = 0x1p-20F, smallest = 0x1p-126F, largest = 0x1p100F;
     const float bound =
@@ -43,26 +43,21 @@ bool is_missed(float u, float v, float w, Reach reach) {
     return low < -bound && high > bound && bound < largest;
 }
 
-// Exact sides of three corners as they were given. The area cannot be zero when the sides agree.
+// The weights cannot add up to zero when the sides agree.
 std::optional<Hit> intersect(const std::array<Vec3, 3>& corners, const RaySetup& ray) {
-    const Line line{ray.origin, ray.direction, ray.kz};
-    const std::array<SeenPoint, 3> points{
-        SeenPoint{line, corners[0]}, {line, corners[1]}, {line, corners[2]}};
+    const ExactTriangle triangle({ray.origin, ray.direction, ray.kz}, corners);
     std::array<double, 3> weights{};
     std::array<Side, 3> sides{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const SeenPoint &p = points[(i + 2) % 3], &q = points[(i + 1) % 3];
-        weights[i] = exact_edge_function(line, p, q);
-        sides[i] = weights[i] > 0   ? Side::Positive
-                   : weights[i] < 0 ? Side::Negative
-                                    : exact_tie(line, p.given, q.given);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        const std::size_t opposite = (corner + 1) % 3;
+        weights[corner] = triangle.edge_function(opposite);
+        sides[corner] = triangle.side(opposite, weights[corner]);
     }
     if (sides[0] != sides[1] || sides[1] != sides[2] || sides[0] == Side::Neither) return std::nullopt;
+    const auto t = float(triangle.distance());
+    if (!(t > ray.t_min)) return std::nullopt;  // the surface that a secondary ray leaves, mostly
     const double area = weights[0] + weights[1] + weights[2];
-    const double depth = weights[0] * points[0].seen[ray.kz] + weights[1] * points[1].seen[ray.kz] +
-                         weights[2] * points[2].seen[ray.kz];
-    return Hit{float(depth / (area * double(ray.direction[ray.kz]))), float(weights[1] / area),
-               float(weights[2] / area)};
+    return Hit{t, float(weights[1] / area), float(weights[2] / area)};
 }
 
 // In the file's order, so that a hit does not depend on how its triangle is stored.

@@ -9,7 +9,7 @@
 
 namespace rtu::model {
 
-/// The triangles of a pair that the ray's line pierces, nearest or not: t is not compared with anything here.
+/// The triangles of a pair that the ray pierces beyond its t_min, nearest or not.
 struct PairHits {
     std::array<Hit, 2> hits{};
     std::array<bool, 2> is_pierced{};

@@ -8,9 +8,10 @@ namespace rtu::model {
 
 namespace {
 
-// A little above 4 and 1 times the unit roundoff 2^-24: see RaySetup.
-constexpr float reach_pad = 0x1.02p-22F;
+// A little above 4 and 1 times the unit roundoff 2^-24, and the least normal number: see RaySetup.
+constexpr float reach_pad = 0x1.08p-22F;
 constexpr float origin_pad = 0x1.02p-24F;
+constexpr float least_pad = 0x1p-126F;
 
 std::uint8_t largest_axis(Vec3 d) {
     const float x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
@@ -50,7 +51,7 @@ RaySetup make_ray_setup(const Ray& ray, const Aabb& bounds) {
         setup.entry_side[axis] = std::signbit(d[axis]) ? 1 : 0;
         const float o = ray.origin[axis];
         const float reach = std::max(std::abs(bounds.lo[axis] - o), std::abs(bounds.hi[axis] - o));
-        const float pad = reach * reach_pad + std::abs(o) * origin_pad;
+        const float pad = reach * reach_pad + std::abs(o) * origin_pad + least_pad;
         const float towards = std::signbit(d[axis]) ? -pad : pad;
         setup.origin_near[axis] = ray.origin[axis] + towards;
         setup.origin_far[axis] = ray.origin[axis] - towards;

@@ -17,9 +17,9 @@ namespace rtu::model {
 ///
 /// Slab test: seen along a plane's axis, its arithmetic errs by 3 * 2^-24 * D and the rounding of a hit's t
 /// by 2^-24 * D, D the largest distance on that axis from the origin to the scene's box. Moving the planes
-/// apart by 4 * 2^-24 * D each, by the rounding of the moved origin, and by a little for products of errors,
-/// therefore keeps the box of every triangle that the pair test accepts, and never lets a ray enter it behind
-/// the hit's t. The planes move by moving the origin, so it costs nothing a box.
+/// apart by 4 * 2^-24 * D each, by the rounding of the moved origin, and by a little for products of errors
+/// and for underflow, therefore keeps the box of every triangle that the pair test accepts, and never lets a
+/// ray enter it behind the hit's t. The planes move by moving the origin, so it costs nothing a box.
 struct RaySetup {
     Vec3 origin, direction;  ///< as given
     Vec3 origin_near;        ///< origin for the plane at which the ray enters, per axis

@@ -46,8 +46,7 @@ template <std::uint32_t Width>
     return node.child_count;
 }
 
-bool is_better(const Hit& hit, float t_min, const Closest& closest) {
-    if (!(hit.t > t_min)) return false;
+bool is_better(const Hit& hit, const Closest& closest) {
     if (hit.t < closest.hit.t) return true;
     return closest.is_found && hit.t == closest.hit.t && hit.primitive_id < closest.hit.primitive_id;
 }
@@ -55,7 +54,7 @@ bool is_better(const Hit& hit, float t_min, const Closest& closest) {
 PairVisit update_closest(Closest& closest, const LeafPair& pair, const RaySetup& ray) {
     const PairHits found = test_pair(pair, ray);
     for (std::size_t i = 0; i < 2; ++i) {
-        if (found.is_pierced[i] && is_better(found.hits[i], ray.t_min, closest))
+        if (found.is_pierced[i] && is_better(found.hits[i], closest))
             closest = {found.hits[i], true};
     }
     return {pair.has_second() ? 2U : 1U, found.exact_tests};

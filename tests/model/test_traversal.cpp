@@ -115,6 +115,62 @@ TEST(SlabTest, NeverEntersABoxBehindAnAcceptedHit) {
     EXPECT_GT(hits, 200'000);
 }
 
+// A ray that starts on a surface does not hit it, and one that starts above it does, however little.
+TEST(Traversal, TellsOnASurfaceFromAboveIt) {
+    Random random(12);
+    for (const float height : {0.0F, 1.0F, -0.3F, 100.1F}) {
+        const TriangleMesh floor{"floor",
+                                 {{-10, height, -10}, {10, height, -10}, {10, height, 10}, {-10, height, 10}},
+                                 {{0, 1, 2}, {0, 2, 3}}};
+        const MemoryImage image = image_of(floor);
+        for (int i = 0; i < 20'000; ++i) {
+            const Vec3 up{random.uniform(-1, 1), random.uniform(0.01F, 1), random.uniform(-1, 1)};
+            const Vec3 on{random.uniform(-9, 9), height, random.uniform(-9, 9)};
+            ASSERT_FALSE(trace(image, {on, 0, up, infinity}, RayKind::ClosestHit)) << "ray " << i;
+        }
+    }
+    const MemoryImage image = image_of(test::closed_box(1, {0, 0, 0}, {1, 1, 1}));
+    for (int i = 0; i < 50'000; ++i) {
+        const float above = std::ldexp(1.0F, -int(random.below(140)) - 1);
+        const Vec3 down{random.uniform(-1, 1), random.uniform(-1, -0.01F), random.uniform(-1, 1)};
+        const Vec3 origin{random.uniform(0.1F, 0.9F), above, random.uniform(0.1F, 0.9F)};
+        ASSERT_TRUE(trace(image, {origin, 0, down, infinity}, RayKind::ClosestHit)) << "ray " << i;
+    }
+}
+
+// Coplanar triangles at one distance: the lowest id, whether they share a leaf or not.
+TEST(Traversal, DoesNotDependOnTheTree) {
+    Random random(13);
+    int hits = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        TriangleMesh mesh{"coplanar", {}, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
+        const auto grid = [&] { return float(int(random.below(17)) - 8); };
+        for (int k = 0; k < 9; ++k) mesh.positions.push_back({0, grid(), grid()});
+        const Vec3 origin{std::ldexp(1.0F, -int(random.below(60))), grid() / 2, grid() / 2};
+        const Ray ray{
+            origin, 0, {random.uniform(-1, -0.01F), random.uniform(-1, 1), random.uniform(-1, 1)}, infinity};
+        const PairingMethod none{PairingKind::None, 0};
+        const auto hit = trace(image_of(mesh, {4, 1}, none), ray, RayKind::ClosestHit);
+        ASSERT_EQ(trace(image_of(mesh, {4, 8}, none), ray, RayKind::ClosestHit), hit) << "ray " << i;
+        ASSERT_EQ(trace(image_of(mesh, {2, 1}), ray, RayKind::ClosestHit), hit) << "ray " << i;
+        hits += hit ? 1 : 0;
+    }
+    EXPECT_GT(hits, 2'000);
+}
+
+// A mesh so thin that the rounding of the slab test's padding would underflow.
+TEST(Traversal, FindsTrianglesOfSubnormalWidth) {
+    const TriangleMesh sliver{"sliver",
+                              {{-0x1.dcp-143F, -0x1.6p-143F, -0x1.0224bp-3F},
+                               {-0x1.cp-147F, 0x1.b8p-143F, -0x1.e5ce4p-4F},
+                               {0x1.4cp-143F, -0x1.6p-143F, 0x1.3ae53cp-1F}},
+                              {{0, 1, 2}}};
+    const Ray ray{
+        {0x1.68p-144F, -0x1.98p-143F, -1}, 0, {-0x1.48p-60F, 0x1.cp-64F, 0x1.bf76d4p+81F}, infinity};
+    EXPECT_EQ(trace(image_of(sliver), ray, RayKind::ClosestHit), brute_force(image_of(sliver), ray));
+    EXPECT_TRUE(trace(image_of(sliver), ray, RayKind::ClosestHit));
+}
+
 TEST(Traversal, NeverLeaksThroughAClosedMesh) {
     for (const float offset : {0.0F, 1e3F, 148376.0F}) {
         const Vec3 centre{offset, -offset, offset};

@@ -1,12 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "exact_reference.hpp"
 #include "meshes.hpp"
-#include "model/exact_edge.hpp"
 #include "model/exact_sum.hpp"
+#include "model/exact_triangle.hpp"
 
 namespace rtu::model {
 namespace {
@@ -22,11 +23,10 @@ std::uint8_t largest_axis(Vec3 d) {
     return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-// The function's sign is that of the sheared plane times the sign of the direction along the axis.
+// The sign of the edge function is that of the sheared plane times the sign of the direction along the axis.
 int side(const Line& line, Vec3 p, Vec3 q) {
-    const double value = exact_edge_function(line, {line, p}, {line, q});
-    const int along = line.direction[line.axis] > 0 ? 1 : -1;
-    return along * (value != 0 ? sign(value) : int(exact_tie(line, p, q)));
+    const ExactTriangle triangle(line, {p, q, p});
+    return int(triangle.side(0, triangle.edge_function(0))) * (line.direction[line.axis] > 0 ? 1 : -1);
 }
 
 void expect_as_oracle(Vec3 origin, Vec3 direction, Vec3 p, Vec3 q) {
@@ -51,7 +51,7 @@ Vec3 on_grid(Random& random) {
     return {number(), number(), number()};
 }
 
-TEST(ExactEdge, HasTheSideOfRationalArithmetic) {
+TEST(ExactTriangle, HasTheSideOfRationalArithmetic) {
     Random random(31);
     for (int i = 0; i < 20'000; ++i) {
         expect_as_oracle(wild(random), wild(random), wild(random), wild(random));
@@ -60,7 +60,7 @@ TEST(ExactEdge, HasTheSideOfRationalArithmetic) {
 }
 
 // Rays aimed at a point of the edge, whose rounding to binary32 is all that separates the two.
-TEST(ExactEdge, TellsSidesThatDifferByRoundingOnly) {
+TEST(ExactTriangle, TellsSidesThatDifferByRoundingOnly) {
     Random random(32);
     for (int i = 0; i < 20'000; ++i) {
         const float offset = std::ldexp(1.0F, int(random.below(24)));
@@ -71,25 +71,65 @@ TEST(ExactEdge, TellsSidesThatDifferByRoundingOnly) {
     }
 }
 
-TEST(ExactEdge, HasAMagnitudeWithinItsBound) {
+TEST(ExactTriangle, HasAMagnitudeWithinItsBound) {
     Random random(33);
     for (int i = 0; i < 5'000; ++i) {
+        const float size = std::ldexp(1.0F, -int(random.below(20)));
         const Line line{random.point(-9, 9), random.point(-1, 1), 0};
-        const SeenPoint p(line, random.point(-9, 9)), q(line, random.point(-9, 9));
-        const auto seen = [&](const SeenPoint& x, std::size_t axis) {
-            return Rational(double(x.given[axis])) - Rational(double(line.origin[axis]));
+        const Vec3 p = random.point(-9, 9), q = p + random.point(-1, 1) * size;
+        const auto part = [](Vec3 v, Vec3 from, std::size_t axis) {
+            return Rational(Rational(double(v[axis])) - Rational(double(from[axis])));
         };
         Rational exact = 0;
-        double length = 0;
+        double length = 0, reach = 0, extent = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
-            exact +=
-                Rational(double(line.direction[k])) * (seen(p, m) * seen(q, n) - seen(p, n) * seen(q, m));
+            exact += Rational(double(line.direction[k])) *
+                     (part(p, line.origin, m) * part(q, p, n) - part(p, line.origin, n) * part(q, p, m));
             length += std::abs(double(line.direction[k]));
+            reach = std::max(reach, std::abs(double(p[k]) - double(line.origin[k])));
+            extent = std::max(extent, std::abs(double(q[k]) - double(p[k])));
         }
-        const Rational error = Rational(exact_edge_function(line, p, q)) - exact;
-        ASSERT_LE(std::abs(error.convert_to<double>()), 0x1p-48 * length * p.reach * q.reach);
+        const Rational error = Rational(ExactTriangle(line, {p, q, p}).edge_function(0)) - exact;
+        ASSERT_LE(std::abs(error.convert_to<double>()), 0x1p-48 * length * reach * extent);
     }
+}
+
+// From any distance down to none, at any angle, with needles: the sign and nearly all digits are right.
+TEST(ExactTriangle, HasTheDistanceOfRationalArithmetic) {
+    Random random(35);
+    const auto any_size = [&](int below) {
+        return std::ldexp(1.0F, -int(random.below(std::uint32_t(below))));
+    };
+    int zeros = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const Vec3 a = random.point(-4, 4), b = a + random.point(-1, 1) * any_size(12);
+        const Vec3 c = a + (b - a) * random.uniform(-1, 1) + random.point(-1, 1) * any_size(20);
+        const Vec3 on_plane = i % 3 == 0 ? a : a + (b - a) * 0.25F;
+        const Vec3 origin = i % 4 == 0 ? on_plane : on_plane + random.point(-1, 1) * any_size(80);
+        const Line line{origin, random.point(-1, 1), 0};
+        const auto vector = [](Vec3 to, Vec3 from) {
+            std::array<Rational, 3> v;
+            for (std::size_t k = 0; k < 3; ++k) v[k] = Rational(double(to[k])) - Rational(double(from[k]));
+            return v;
+        };
+        const auto ab = vector(b, a), ac = vector(c, a), oa = vector(a, origin),
+                   d = vector(line.direction, {});
+        Rational along = 0, before = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
+            const Rational normal = ab[m] * ac[n] - ab[n] * ac[m];
+            along += d[k] * normal;
+            before += oa[k] * normal;
+        }
+        if (along == 0) continue;
+        const Rational exact = before / along;
+        const double t = ExactTriangle(line, {a, b, c}).distance();
+        zeros += exact == 0 ? 1 : 0;
+        const Rational error = Rational(t) - exact;
+        ASSERT_LE(abs(error), abs(exact) * Rational(0x1p-28)) << "ray " << i;
+    }
+    EXPECT_GT(zeros, 1'000);
 }
 
 TEST(ExactSum, KeepsWhatDoublesLose) {
