@@ -26,24 +26,32 @@ auto with_width(const MemoryImage& image, F f) {
     }
 }
 
-// Pushes the children that the ray enters so that the nearest lies on top, and of equally near ones the
-// lowest index. Returns the number of boxes tested.
+// Of the children that the ray enters, at least one, returns the nearest and pushes the others so that nearer
+// ones lie higher; of equally near ones the lowest index counts as nearest.
 template <std::uint32_t Width>
-[[gnu::always_inline]] inline std::uint32_t push_children(const Node<Width>& node,
-                                                          const SlabRay<slab_lanes<Width>>& ray, float t_end,
-                                                          TraversalStack& stack) {
-    const SlabHits<Width> hits = slab_test(node, ray, t_end);
-    const std::size_t base = stack.size();
-    for (std::uint32_t mask = hits.mask; mask != 0; mask &= mask - 1) {
+[[gnu::always_inline]] inline StackEntry push_all_but_nearest(const Node<Width>& node,
+                                                              const SlabHits<Width>& hits,
+                                                              TraversalStack& stack) {
+    const auto first_of = [&](std::uint32_t mask) {
         const auto child = std::uint32_t(std::countr_zero(mask));
-        const StackEntry entry{node.child[child], hits.t_near[child]};
+        return StackEntry{node.child[child], hits.t_near[child]};
+    };
+    const std::size_t base = stack.size();
+    StackEntry nearest = first_of(hits.mask);
+    for (std::uint32_t mask = hits.mask & (hits.mask - 1); mask != 0; mask &= mask - 1) {
+        const StackEntry entry = first_of(mask);
+        if (entry.t_near < nearest.t_near) {
+            stack.push(nearest);
+            nearest = entry;
+            continue;
+        }
         std::size_t place = stack.size();
         stack.push(entry);
         for (; place > base && stack[place - 1].t_near <= entry.t_near; --place)
             stack[place] = stack[place - 1];
         stack[place] = entry;
     }
-    return node.child_count;
+    return nearest;
 }
 
 bool is_better(const Hit& hit, const Closest& closest) {
@@ -54,36 +62,42 @@ bool is_better(const Hit& hit, const Closest& closest) {
 PairVisit update_closest(Closest& closest, const LeafPair& pair, const RaySetup& ray) {
     const PairHits found = test_pair(pair, ray);
     for (std::size_t i = 0; i < 2; ++i) {
-        if (found.is_pierced[i] && is_better(found.hits[i], closest))
-            closest = {found.hits[i], true};
+        if (found.is_pierced[i] && is_better(found.hits[i], closest)) closest = {found.hits[i], true};
     }
     return {pair.has_second() ? 2U : 1U, found.exact_tests};
 }
 
 // The whole traversal of one ray, with the tree's width known to the compiler and the ray's constants in
-// registers.
+// registers. The nearest child is visited next without passing through the stack.
 template <std::uint32_t Width>
 Closest run(const MemoryImage& image, const RaySetup& ray, RayKind kind, TraversalStack& stack,
             TraversalCounts& counts) {
     const SlabRay<slab_lanes<Width>> slab_ray(ray);
     Closest closest{Hit{.t = ray.t_max}};
-    const auto is_done = [&] { return kind == RayKind::AnyHit && closest.is_found; };
-    stack.push({image.root(), ray.t_min});
-    while (stack.size() > 0 && !is_done()) {
-        const StackEntry current = stack.pop();
-        if (current.t_near > closest.hit.t) continue;
-        if (!current.ref.is_leaf()) {
-            counts.box_tests += push_children(image.node<Width>(current.ref), slab_ray, closest.hit.t, stack);
+    StackEntry current{image.root(), ray.t_min};
+    while (true) {
+        if (current.ref.is_leaf()) {
+            for (std::uint32_t i = 0; i < current.ref.pair_count(); ++i) {
+                const PairVisit visit = update_closest(closest, image.leaf_pair(current.ref, i), ray);
+                counts.triangle_tests += visit.triangle_tests;
+                ++counts.pair_tests;
+                if (kind == RayKind::AnyHit && closest.is_found) return closest;
+            }
+        } else {
+            const Node<Width>& node = image.node<Width>(current.ref);
+            const SlabHits<Width> hits = slab_test(node, slab_ray, closest.hit.t);
+            counts.box_tests += node.child_count;
             ++counts.node_visits;
-            continue;
+            if (hits.mask != 0) {
+                current = push_all_but_nearest(node, hits, stack);
+                continue;
+            }
         }
-        for (std::uint32_t i = 0; i < current.ref.pair_count() && !is_done(); ++i) {
-            const PairVisit visit = update_closest(closest, image.leaf_pair(current.ref, i), ray);
-            counts.triangle_tests += visit.triangle_tests;
-            ++counts.pair_tests;
-        }
+        do {
+            if (stack.size() == 0) return closest;
+            current = stack.pop();
+        } while (current.t_near > closest.hit.t);
     }
-    return closest;
 }
 
 }  // namespace
@@ -109,9 +123,11 @@ std::uint32_t child_count(const MemoryImage& image, NodeRef ref) {
 
 std::uint32_t visit_node(Traversal& traversal, const MemoryImage& image) {
     return with_width(image, [&]<std::uint32_t Width>() {
-        return push_children(image.node<Width>(traversal.current.ref),
-                             SlabRay<slab_lanes<Width>>(traversal.ray), traversal.closest.hit.t,
-                             traversal.stack);
+        const Node<Width>& node = image.node<Width>(traversal.current.ref);
+        const SlabRay<slab_lanes<Width>> ray(traversal.ray);
+        const SlabHits<Width> hits = slab_test(node, ray, traversal.closest.hit.t);
+        if (hits.mask != 0) traversal.stack.push(push_all_but_nearest(node, hits, traversal.stack));
+        return node.child_count;
     });
 }
 
