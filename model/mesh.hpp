@@ -10,8 +10,7 @@
 namespace rtu::model {
 
 /// The largest coordinate of a scene or camera, and the least diagonal of a scene's box, in scene units:
-/// beyond them the intersection arithmetic, which multiplies three coordinates in binary32, overflows or
-/// underflows.
+/// beyond them binary32 arithmetic on positions, such as that of normals and areas, overflows or underflows.
 inline constexpr float max_coordinate = 1e11F;
 inline constexpr float min_diagonal = 1e-9F;
 

@@ -23,8 +23,9 @@ struct PairHits {
 ///    than their rounding errors. Nothing is accepted here.
 /// 2. What is left is decided exactly, on the numbers as they were given: a triangle is pierced when the ray
 ///    passes its three edges on the same side, and a ray exactly through an edge or a vertex belongs to one
-///    triangle only (exact_tie()). So no closed mesh leaks or is hit twice, and a triangle that is degenerate
-///    or seen edge-on is never pierced. t, u and v are computed in binary64 and rounded once.
+///    triangle only (ExactTriangle::side()). So no closed mesh leaks or is hit twice, and a triangle that is
+///    degenerate or seen edge-on is never pierced. t is the exact distance but for its rounding; it, u and v
+///    depend on the triangle and the ray only.
 ///
 /// A pair gives bit for bit what its triangles give one by one.
 [[nodiscard]] PairHits test_pair(const LeafPair& pair, const RaySetup& ray);

@@ -58,7 +58,7 @@ inline void slab_test_from(const Node<Width>& node, const SlabRay<slab_lanes<Wid
 
 /// Slab test of all children of a node against one ray. Conservative: it keeps every box that holds a
 /// triangle which the pair test accepts with t <= t_end, and its t_near is not above that t. An axis that
-/// gives NaN (origin on a plane of a slab that the ray runs along) culls nothing.
+/// gives NaN (moved origin on a plane of a slab that the ray runs along) culls nothing.
 template <std::uint32_t Width>
 [[nodiscard]] inline SlabHits<Width> slab_test(const Node<Width>& node, const SlabRay<slab_lanes<Width>>& ray,
                                                float t_end) {
