@@ -86,6 +86,8 @@ void check_cameras(const std::optional<fs::path>& file, const std::vector<study:
 }
 
 void check_output(const fs::path& output, const std::vector<fs::path>& inputs) {
+    if (output == "-")
+        throw Error("-: only --json can go to standard output; for a file of that name, say ./-");
     study::check_writable(output);
     for (const fs::path& input : inputs) {
         if (is_same_file(input, output)) {

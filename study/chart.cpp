@@ -89,6 +89,15 @@ std::string frame(const Chart& chart) {
     return out;
 }
 
+// Levels of one colour differ in their dashes: 2 to 5 in gnuplot's numbering.
+std::size_t dash_type(const Chart& chart, const ChartSeries& level) {
+    std::size_t before = 0;
+    for (const ChartSeries* other = chart.series.data(); other != &level; ++other) {
+        before += other->level && other->colour == level.colour ? 1 : 0;
+    }
+    return 2 + before % 4;
+}
+
 // Lines: each series its own colour and kind of point; levels dashed.
 std::string lines(const Chart& chart) {
     std::string data, plots;
@@ -110,7 +119,8 @@ std::string lines(const Chart& chart) {
         plots += fmt::format("{}${} using 1:2 title {} ", i == 0 ? "" : ", ", block, in_quotes(series.name));
         plots +=
             series.level
-                ? fmt::format("with lines dashtype 2 linewidth 1.5 linecolor rgb '{}'", colour)
+                ? fmt::format("with lines dashtype {} linewidth 1.5 linecolor rgb '{}'",
+                              dash_type(chart, series), colour)
                 : fmt::format("with linespoints linewidth 2 pointtype {} pointsize 0.7 linecolor rgb '{}'",
                               point_types[series.colour % point_types.size()], colour);
     }

@@ -36,7 +36,7 @@ struct Chart {
 enum class ChartFormat : std::uint8_t { Svg, Png };
 
 /// The chart as a gnuplot script with its data inline. Text stands in single quotes only, in which gnuplot
-/// expands nothing. With a `name_prefix`, the ids within an SVG begin with it, so that several fit one page.
+/// expands nothing. The ids within an SVG begin with the chart's name, so that several fit one page.
 [[nodiscard]] std::string gnuplot_script(const Chart& chart, ChartFormat format);
 
 /// Throws Error, naming the package, when gnuplot is not on the PATH.

@@ -107,6 +107,7 @@ TEST_F(CommandLineErrors, BadFilesAreNamedInOneLine) {
 TEST_F(CommandLineErrors, BadOutputsAreFoundBeforeTheSimulation) {
     expect_bad_input({"run", "ball.glb", "--json", "no/such/folder.json"}, "no/such/folder.json");
     expect_bad_input({"run", "ball.glb", "--csv", "."}, ".: cannot write");
+    expect_bad_input({"run", "ball.glb", "--csv", "-"}, "-: only --json can go to standard output");
     expect_bad_input({"run", "ball.glb", "--image", "ball.glb"}, "expected a folder");
     expect_bad_input({"run", "ball.glb", "--json", "ball.glb"}, "would be overwritten");
     static_cast<void>(folder_.write("machine.toml", ""));

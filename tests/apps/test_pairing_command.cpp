@@ -169,6 +169,7 @@ TEST_F(PairingCommand, BadOutputsAreFoundBeforeTheSimulation) {
     expect_bad_input({"--json", "out", "--csv", "./out"}, "named by two options");
     expect_bad_input({"--charts", "ball.glb"}, "expected a folder");
     expect_bad_input({"--html", "."}, "cannot write");
+    expect_bad_input({"--html", "-"}, "only --json can go to standard output");
     EXPECT_EQ(pair_ball({"--study", ""}).exit_code, 2);
     EXPECT_EQ(pair_ball({"--no-such"}).exit_code, 2);
 }

@@ -44,6 +44,19 @@ TEST(ChartScript, HoldsLabelsAxesAndData) {
     }
 }
 
+TEST(ChartScript, DashesLevelsOfOneColourApart) {
+    Chart chart = line_chart();
+    for (const double level : {1.0, 2.0}) chart.series.push_back({"level", {}, level, {}, 0});
+    chart.series.push_back({"of another colour", {}, 3.0, {}, 1});
+    const std::string script = gnuplot_script(chart, ChartFormat::Svg);
+    const std::size_t first = script.find("dashtype 2"), second = script.find("dashtype 3");
+    ASSERT_NE(first, std::string::npos);
+    ASSERT_NE(second, std::string::npos);
+    EXPECT_LT(first, second);
+    EXPECT_NE(script.find("dashtype 2", second), std::string::npos);
+    EXPECT_EQ(script.find("dashtype 4"), std::string::npos);
+}
+
 // Nothing that a name can hold ends its quotes or begins a line of its own.
 TEST(ChartScript, QuotesWhateverNamesHold) {
     Chart chart = line_chart();
