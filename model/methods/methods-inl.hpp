@@ -1,0 +1,34 @@
+// Every method, for the instruction set that is being compiled (see target.hpp).
+
+#include "model/methods/target.hpp"
+
+#if defined(RTU_METHODS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef RTU_METHODS_INL
+#undef RTU_METHODS_INL
+#else
+#define RTU_METHODS_INL
+#endif
+
+// Each stands on those before it.
+// clang-format off
+#include "model/methods/numeric-inl.hpp"
+#include "model/methods/lanes-inl.hpp"
+#include "model/methods/result-inl.hpp"
+#include "model/methods/moller_trumbore.hpp"
+#include "model/methods/wald.hpp"
+#include "model/methods/woop.hpp"
+// clang-format on
+
+RTU_BEFORE_TARGET();
+namespace rtu::model::methods::RTU_TARGET {
+
+template <class... Methods>
+struct MethodList {};
+
+/// In the order of their publication.
+using AllMethods = MethodList<MollerTrumbore, Wald, Woop>;
+
+}  // namespace rtu::model::methods::RTU_TARGET
+RTU_AFTER_TARGET();
+
+#endif
