@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "model/methods/emulated.hpp"
+#include "model/methods/exact.hpp"
+
+namespace rtu::model::methods {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Every finite number of a format that is not negative, in order, decoded from its bits; then what would come
+// next, were the exponent unlimited.
+std::vector<double> numbers_of(NumberFormat format) {
+    std::vector<double> numbers;
+    const int places = 1 << format.mantissa_bits;
+    for (int exponent = 0; exponent < (1 << format.exponent_bits) - 1; ++exponent) {
+        for (int mantissa = 0; mantissa < places; ++mantissa) {
+            const int significand = exponent == 0 ? mantissa : places + mantissa;
+            numbers.push_back(std::ldexp(
+                significand, std::max(exponent, 1) - 1 + format.least_exponent() - format.mantissa_bits));
+        }
+    }
+    numbers.push_back(std::ldexp(1.0, format.largest_exponent() + 1));
+    return numbers;
+}
+
+class SmallFormat : public testing::TestWithParam<NumberFormat> {};
+
+// All numbers, all ties between neighbours and what is just beside the ties.
+TEST_P(SmallFormat, RoundsToTheNearestNumberTiesToEven) {
+    const NumberFormat format = GetParam();
+    const std::vector<double> numbers = numbers_of(format);
+    for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
+        const double below = numbers[i];
+        const double above = i + 2 < numbers.size() ? numbers[i + 1] : infinity;
+        const double tie = (below + numbers[i + 1]) / 2;
+        const double even = i % 2 == 0 ? below : above;
+        ASSERT_EQ(rounded(format, below), below) << i;
+        ASSERT_EQ(rounded(format, std::nextafter(tie, 0.0)), below) << i;
+        ASSERT_EQ(rounded(format, tie), even) << i;
+        ASSERT_EQ(rounded(format, std::nextafter(tie, infinity)), above) << i;
+        ASSERT_EQ(rounded(format, -tie), -even) << i;
+        ASSERT_EQ(std::signbit(rounded(format, -std::nextafter(tie, 0.0))), true) << i;
+    }
+    EXPECT_EQ(rounded(format, -infinity), -infinity);
+    EXPECT_EQ(rounded(format, 1e308), infinity);
+    EXPECT_TRUE(std::isnan(rounded(format, std::nan(""))));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, SmallFormat,
+                         testing::Values(NumberFormat{5, 10}, NumberFormat{8, 7}, NumberFormat{10, 7},
+                                         NumberFormat{8, 10}, NumberFormat{4, 3}),
+                         [](const auto& format) { return to_string(format.param); });
+
+bool is_same(double emulated, float native) {
+    if (std::isnan(native)) return std::isnan(emulated);
+    return emulated == double(native) && std::signbit(emulated) == std::signbit(native);
+}
+
+TEST(Emulated, OfBinary32IsBinary32) {
+    std::mt19937 random(11);
+    const auto is_small = [](float x) { return x != 0 && std::abs(x) < std::numeric_limits<float>::min(); };
+    int subnormal_count = 0;
+    for (int i = 0; i < 2'000'000; ++i) {
+        std::uint32_t bits = std::uint32_t(random());
+        const float a = std::bit_cast<float>(bits);
+        // Every third pair has exponents alike, so that sums and quotients round in every way.
+        const std::uint32_t other = std::uint32_t(random());
+        bits = i % 3 == 0 ? (bits & 0x7f00'0000U) | (other & 0x80ff'ffffU) : other;
+        const float b = std::bit_cast<float>(bits);
+        const Emulated x(binary32, double(a)), y(binary32, double(b));
+        ASSERT_TRUE(is_same((x + y).value, a + b)) << a << " + " << b;
+        ASSERT_TRUE(is_same((x - y).value, a - b)) << a << " - " << b;
+        ASSERT_TRUE(is_same((x * y).value, a * b)) << a << " * " << b;
+        ASSERT_TRUE(is_same((x / y).value, a / b)) << a << " / " << b;
+        subnormal_count += is_small(a / b) || is_small(a * b) ? 1 : 0;
+    }
+    EXPECT_GT(subnormal_count, 10'000);
+}
+
+TEST(Emulated, TakesTheFormatOfWhatMeetsAConstant) {
+    const NumberFormat format{8, 7};
+    const Emulated third = Emulated(1.0F) / Emulated(format, 3.0);
+    EXPECT_EQ(third.value, 0x1.56p-2);
+    EXPECT_EQ((third - Emulated(1.0F)).format, format);
+    EXPECT_EQ((Emulated(1.0F) + Emulated(1.0F)).value, 2.0);
+    EXPECT_TRUE(std::signbit(magnitude(-third).value) == false && flip_sign(third, -third).value < 0);
+    EXPECT_FALSE(has_same_sign(Emulated(format, 0.0), Emulated(format, -0.0)));
+}
+
+struct Case {
+    Ray ray;
+    Corners triangle;
+};
+
+// Corners, origin and aim from small to large, near edges and vertices more often than not.
+class Cases {
+  public:
+    explicit Cases(std::uint32_t seed) : random_(seed) {}
+    Case next() {
+        const float scale = std::ldexp(1.0F, int(random_() % 9) * 14 - 62);
+        const float offset = random_() % 4 == 0 ? scale * 1000 : 0;
+        Case c;
+        for (Vec3& corner : c.triangle) corner = point(scale, offset);
+        c.ray.origin = point(scale, offset);
+        const float s = weight(), r = weight();
+        const Vec3 aim = c.triangle[0] * (1 - s - r) + c.triangle[1] * s + c.triangle[2] * r;
+        c.ray.direction = aim - c.ray.origin;
+        if (random_() % 8 == 0) c.ray.direction = axis_parallel();
+        if (random_() % 8 == 0) c.triangle[2] = c.triangle[random_() % 2];
+        c.ray.t_max = random_() % 2 == 0 ? std::numeric_limits<float>::infinity() : 1.0F;
+        return c;
+    }
+
+  private:
+    float uniform() { return float(random_() >> 8) * 0x1p-24F; }
+    float weight() { return random_() % 2 == 0 ? float(random_() % 3) * 0.5F : uniform(); }
+    Vec3 point(float scale, float offset) {
+        const float x = uniform(), y = uniform(), z = uniform();
+        return {x * scale + offset, y * scale, z * scale - offset};
+    }
+    Vec3 axis_parallel() {
+        Vec3 d{0, random_() % 2 == 0 ? 0.0F : -0.0F, 0};
+        d[random_() % 3] = random_() % 2 == 0 ? 1.0F : -1.0F;
+        return d;
+    }
+    std::mt19937 random_;
+};
+
+TEST(EmulatedMethods, InBinary32AreTheMethodsToTheBit) {
+    for (const EmulatedMethod& method : emulated_methods()) {
+        const Method& native = *find_method(method.info.name);
+        Cases cases(3);
+        int hits = 0;
+        for (int i = 0; i < 30'000; ++i) {
+            const Case c = cases.next();
+            const auto expected = native.test(c.ray, c.triangle);
+            const auto got = method.test(c.ray, c.triangle, binary32);
+            ASSERT_EQ(got.has_value(), expected.has_value()) << method.info.name << ", case " << i;
+            if (!got) continue;
+            ++hits;
+            ASSERT_TRUE(is_same(got->t, expected->t)) << method.info.name << ", case " << i;
+            ASSERT_TRUE(is_same(got->u, expected->u)) << method.info.name << ", case " << i;
+            ASSERT_TRUE(is_same(got->v, expected->v)) << method.info.name << ", case " << i;
+        }
+        EXPECT_GT(hits, 3000) << method.info.name;
+    }
+    EXPECT_EQ(emulated_methods().size() + 1, all_methods().size());
+}
+
+TEST(EmulatedMethods, LoseAccuracyBitByBit) {
+    const Corners triangle{Vec3{0.1F, 0.2F, 3.3F}, Vec3{1.7F, 0.1F, 3.1F}, Vec3{0.3F, 1.9F, 2.7F}};
+    const Ray ray{{0.3F, 0.4F, 0}, 0, {0.13F, 0.11F, 0.97F}, 100};
+    const double t = double(test_exactly(ray, triangle).value().t);
+    for (const EmulatedMethod& method : emulated_methods()) {
+        for (const int bits : {7, 11, 15, 19, 23}) {
+            const auto hit = method.test(ray, triangle, {8, std::uint8_t(bits)});
+            ASSERT_TRUE(hit) << method.info.name << ", " << bits;
+            EXPECT_NEAR(hit->t, t, std::ldexp(60 * t, -bits - 1)) << method.info.name << ", " << bits;
+        }
+        const auto narrow = method.test(ray, triangle, {8, 7});
+        EXPECT_GT(std::abs(narrow->t - t), std::ldexp(t, -20)) << method.info.name;
+    }
+}
+
+// With exponents of 8 bits, a triangle of size 1e15 overflows all that multiplies three lengths.
+TEST(EmulatedMethods, HitHugeTrianglesWithAWiderExponent) {
+    const float s = 1e15F;
+    const Corners triangle{Vec3{-s, -s, s}, Vec3{s, -s, s}, Vec3{0, s, s}};
+    const Ray ray{{0, 0, 0}, 0, {s / 64, s / 128, s / 2}, std::numeric_limits<float>::infinity()};
+    for (const EmulatedMethod& method : emulated_methods()) {
+        const auto hit = method.test(ray, triangle, {10, 23});
+        ASSERT_TRUE(hit) << method.info.name;
+        EXPECT_NEAR(hit->t, 2, 1e-5) << method.info.name;
+    }
+    EXPECT_FALSE(emulated_methods()[0].test(ray, triangle, binary32)) << emulated_methods()[0].info.name;
+}
+
+TEST(NumberFormat, IsCalledByItsNameOrItsBits) {
+    EXPECT_EQ(to_string(binary32), "fp32");
+    EXPECT_EQ(to_string({10, 23}), "fp32e10");
+    EXPECT_EQ(to_string({8, 12}), "e8m12");
+}
+
+}  // namespace
+}  // namespace rtu::model::methods
