@@ -9,6 +9,7 @@
 
 #include "model/methods/emulated.hpp"
 #include "model/methods/exact.hpp"
+#include "tests/model/method_cases.hpp"
 
 namespace rtu::model::methods {
 namespace {
@@ -95,52 +96,13 @@ TEST(Emulated, TakesTheFormatOfWhatMeetsAConstant) {
     EXPECT_FALSE(has_same_sign(Emulated(format, 0.0), Emulated(format, -0.0)));
 }
 
-struct Case {
-    Ray ray;
-    Corners triangle;
-};
-
-// Corners, origin and aim from small to large, near edges and vertices more often than not.
-class Cases {
-  public:
-    explicit Cases(std::uint32_t seed) : random_(seed) {}
-    Case next() {
-        const float scale = std::ldexp(1.0F, int(random_() % 9) * 14 - 62);
-        const float offset = random_() % 4 == 0 ? scale * 1000 : 0;
-        Case c;
-        for (Vec3& corner : c.triangle) corner = point(scale, offset);
-        c.ray.origin = point(scale, offset);
-        const float s = weight(), r = weight();
-        const Vec3 aim = c.triangle[0] * (1 - s - r) + c.triangle[1] * s + c.triangle[2] * r;
-        c.ray.direction = aim - c.ray.origin;
-        if (random_() % 8 == 0) c.ray.direction = axis_parallel();
-        if (random_() % 8 == 0) c.triangle[2] = c.triangle[random_() % 2];
-        c.ray.t_max = random_() % 2 == 0 ? std::numeric_limits<float>::infinity() : 1.0F;
-        return c;
-    }
-
-  private:
-    float uniform() { return float(random_() >> 8) * 0x1p-24F; }
-    float weight() { return random_() % 2 == 0 ? float(random_() % 3) * 0.5F : uniform(); }
-    Vec3 point(float scale, float offset) {
-        const float x = uniform(), y = uniform(), z = uniform();
-        return {x * scale + offset, y * scale, z * scale - offset};
-    }
-    Vec3 axis_parallel() {
-        Vec3 d{0, random_() % 2 == 0 ? 0.0F : -0.0F, 0};
-        d[random_() % 3] = random_() % 2 == 0 ? 1.0F : -1.0F;
-        return d;
-    }
-    std::mt19937 random_;
-};
-
 TEST(EmulatedMethods, InBinary32AreTheMethodsToTheBit) {
     for (const EmulatedMethod& method : emulated_methods()) {
         const Method& native = *find_method(method.info.name);
-        Cases cases(3);
+        test::MethodCases cases(3);
         int hits = 0;
         for (int i = 0; i < 30'000; ++i) {
-            const Case c = cases.next();
+            const test::MethodCase c = cases.next();
             const auto expected = native.test(c.ray, c.triangle);
             const auto got = method.test(c.ray, c.triangle, binary32);
             ASSERT_EQ(got.has_value(), expected.has_value()) << method.info.name << ", case " << i;
