@@ -12,7 +12,7 @@
 
 #include "model/error.hpp"
 #include "model/one_line.hpp"
-#include "study/chart.hpp"
+#include "study/chart_format.hpp"
 
 extern char** environ;  // NOLINT: POSIX declares it nowhere
 
@@ -99,14 +99,14 @@ void check_gnuplot() {
     throw Error("{}", missing);
 }
 
-std::string draw(const Chart& chart, ChartFormat format) {
+std::string run_gnuplot_script(std::string_view script, std::string_view name) {
     MemoryFile in("chart-script");
     const MemoryFile out("chart"), err("chart-errors");
-    in.fill(gnuplot_script(chart, format));
+    in.fill(script);
     const int status = run_gnuplot(in, out, err);
     std::string bytes = out.content();
     if (status != 0 || bytes.empty()) {
-        throw Error("gnuplot could not draw {}: {}", chart.name, model::one_line(err.content()));
+        throw Error("gnuplot could not draw {}: {}", name, model::one_line(err.content()));
     }
     return bytes;
 }

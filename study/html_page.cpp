@@ -106,7 +106,10 @@ std::string html_figure(std::string_view svg, std::string_view name) {
     for (const auto& [from, to] : changes) drawing = replaced(std::move(drawing), from, to);
     // Ids are the page's, and every drawing of gnuplot has the same.
     for (const char* id : {"gpDot", "gpPt", "gnuplot_canvas", "textbox", "greybox"}) {
-        drawing = replaced(std::move(drawing), id, fmt::format("{}-{}", name, id));
+        for (const char* before : {"'", "\"", "#"}) {  // not within the data of a picture
+            drawing = replaced(std::move(drawing), fmt::format("{}{}", before, id),
+                               fmt::format("{}{}-{}", before, name, id));
+        }
     }
     return fmt::format("<figure>{}</figure>\n", drawing);
 }
