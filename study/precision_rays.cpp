@@ -1,0 +1,128 @@
+#include "study/precision_rays.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "model/random.hpp"
+#include "model/traversal.hpp"
+#include "model/weld.hpp"
+
+namespace rtu::study {
+namespace {
+
+using model::TriangleMesh;
+using model::methods::Corners;
+
+// They tell these random numbers from those of workloads.
+constexpr std::uint32_t sample_purpose = 16, aim_purpose = 17;
+
+Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
+    const auto& t = mesh.triangles[triangle];
+    return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+}
+
+// One of each of `want` stretches of equal length: a fixed stride would walk down a column of the picture.
+std::vector<std::size_t> sample(std::size_t have, std::uint32_t want, std::uint64_t seed) {
+    const std::size_t count = std::min<std::size_t>(have, want);
+    std::vector<std::size_t> chosen(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t begin = i * have / count, end = (i + 1) * have / count;
+        model::RandomStream random(seed, sample_purpose, std::uint32_t(i));
+        chosen[i] = begin + std::size_t(random.next() * float(end - begin));
+    }
+    return chosen;
+}
+
+// The primitives of every pair that a traversal tests.
+std::vector<std::uint32_t> tested_triangles(model::Traversal& traversal, const model::MemoryImage& image,
+                                            const model::Ray& ray, model::RayKind kind) {
+    std::vector<std::uint32_t> tested;
+    if (!start(traversal, image, ray, kind)) return tested;
+    do {
+        const model::NodeRef ref = traversal.current.ref;
+        if (!ref.is_leaf()) {
+            visit_node(traversal, image);
+            continue;
+        }
+        for (std::uint32_t i = 0; i < ref.pair_count() && !is_satisfied(traversal); ++i) {
+            const model::LeafPair pair = image.leaf_pair(ref, i);
+            const std::uint32_t count = visit_pair(traversal, image, i).triangle_tests;
+            tested.insert(tested.end(), pair.primitive_ids.begin(), pair.primitive_ids.begin() + count);
+        }
+    } while (!is_satisfied(traversal) && pop(traversal));
+    return tested;
+}
+
+// The triangles at each vertex, vertices being one where their positions are bit-equal.
+class Neighbours {
+  public:
+    explicit Neighbours(const TriangleMesh& mesh) : mesh_(mesh) {
+        model::ScratchMemory memory(64 * mesh.positions.size() + (1U << 20));
+        const auto ids = model::weld_positions(mesh.positions, memory);
+        ids_.assign(ids.begin(), ids.end());
+        begins_.assign(ids_.size() + 1, 0);
+        for (const model::Triangle& t : mesh.triangles)
+            for (const std::uint32_t vertex : t) ++begins_[ids_[vertex] + 1];
+        std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+        triangles_.resize(begins_.back());
+        std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
+        for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+            for (const std::uint32_t vertex : mesh.triangles[i]) triangles_[next[ids_[vertex]]++] = i;
+    }
+
+    [[nodiscard]] std::vector<Corners> around(std::uint32_t vertex, std::uint32_t other) const {
+        std::set<std::uint32_t> found;
+        for (const std::uint32_t v : {ids_[vertex], ids_[other]})
+            found.insert(triangles_.begin() + begins_[v], triangles_.begin() + begins_[v + 1]);
+        std::vector<Corners> corners;
+        for (const std::uint32_t triangle : found) corners.push_back(corners_of(mesh_, triangle));
+        return corners;
+    }
+
+  private:
+    const TriangleMesh& mesh_;
+    std::vector<std::uint32_t> ids_;                 // of each vertex
+    std::vector<std::uint32_t> begins_, triangles_;  // those of vertex v: [begins_[v], begins_[v + 1])
+};
+
+}  // namespace
+
+std::vector<RayTriangles> sampled_rays(const TriangleMesh& mesh, const model::MemoryImage& image,
+                                       const model::Workload& workload, std::uint32_t ray_count,
+                                       std::uint64_t seed) {
+    std::vector<RayTriangles> rays;
+    model::Traversal traversal;
+    for (const std::size_t index : sample(workload.rays.size(), ray_count, seed)) {
+        RayTriangles one{workload.rays[index], {}};
+        for (const std::uint32_t triangle : tested_triangles(traversal, image, one.ray, workload.ray_kind))
+            one.triangles.push_back(corners_of(mesh, triangle));
+        rays.push_back(std::move(one));
+    }
+    return rays;
+}
+
+std::vector<RayTriangles> aimed_rays(const TriangleMesh& mesh, const model::MemoryImage& image,
+                                     const model::Workload& workload, std::uint32_t ray_count,
+                                     std::uint64_t seed) {
+    const Neighbours neighbours(mesh);
+    std::vector<RayTriangles> rays;
+    model::TraversalStack stack;
+    for (const std::size_t index : sample(workload.rays.size(), ray_count, seed)) {
+        const model::Ray& ray = workload.rays[index];
+        const auto hit = trace(stack, image, ray, model::RayKind::ClosestHit);
+        if (!hit) continue;
+        model::RandomStream random(seed, aim_purpose, std::uint32_t(index));
+        const model::Triangle& t = mesh.triangles[hit->primitive_id];
+        const auto side = std::size_t(random.next() * 3);
+        const std::uint32_t a = t[side], b = rays.size() % 2 == 0 ? a : t[(side + 1) % 3];
+        const model::Vec3 from = mesh.positions[a], to = mesh.positions[b];
+        const model::Vec3 aim = from + (to - from) * random.next();
+        const model::Ray at_edge{ray.origin, 0, aim - ray.origin, std::numeric_limits<float>::infinity()};
+        rays.push_back({at_edge, neighbours.around(a, b)});
+    }
+    return rays;
+}
+
+}  // namespace rtu::study
