@@ -2,6 +2,7 @@
 #define HWY_TARGET_INCLUDE "model/methods/kernels_all.cpp"
 #include <hwy/foreach_target.h>  // before anything that is compiled for each instruction set
 
+#include "model/methods/exact.hpp"
 #include "model/methods/kernels-inl.hpp"
 
 RTU_BEFORE_TARGET();
@@ -24,6 +25,7 @@ const std::vector<Kernel>& all_kernels() {
     static const std::vector<Kernel> kernels = [] {
         std::vector<Kernel> all;
         HWY_DYNAMIC_DISPATCH(add)(all);
+        for (const Kernel& kernel : exact_kernels()) all.push_back(kernel);
         return all;
     }();
     return kernels;
