@@ -42,6 +42,7 @@ struct Lanes {
     [[nodiscard]] friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(hn::Mul(a.v, b.v)); }
     [[nodiscard]] friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return Lanes(hn::Div(a.v, b.v)); }
     [[nodiscard]] friend HWY_INLINE Lanes operator-(Lanes a) { return Lanes(hn::Neg(a.v)); }
+    [[nodiscard]] friend HWY_INLINE LaneMask<W> operator==(Lanes a, Lanes b) { return {hn::Eq(a.v, b.v)}; }
     [[nodiscard]] friend HWY_INLINE LaneMask<W> operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
     [[nodiscard]] friend HWY_INLINE LaneMask<W> operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
     [[nodiscard]] friend HWY_INLINE LaneMask<W> operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
