@@ -37,8 +37,8 @@ struct Woop : DeferredDivision {
     template <class Real>
     [[nodiscard]] static RayData<Real> prepare(const Vector<Real>& origin, const Vector<Real>& direction,
                                                Axis axis) {
-        const Real inverse = Real(1.0F) / pick<0>(axis, direction);
-        return {origin, pick<1>(axis, direction) * inverse, pick<2>(axis, direction) * inverse, inverse};
+        const Real d = pick<0>(axis, direction);
+        return {origin, pick<1>(axis, direction) / d, pick<2>(axis, direction) / d, Real(1.0F) / d};
     }
     template <class Real>
     [[nodiscard]] static Stored<Real> store(const Vector<Real>& a, const Vector<Real>& b,
