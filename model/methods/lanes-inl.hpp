@@ -66,6 +66,14 @@ template <std::size_t W>
     return Lanes<W>(hn::IfThenElse(mask.bits, yes.v, no.v));
 }
 template <std::size_t W>
+[[nodiscard]] HWY_INLINE Lanes<W> smaller(Lanes<W> a, Lanes<W> b) {
+    return Lanes<W>(hn::Min(a.v, b.v));
+}
+template <std::size_t W>
+[[nodiscard]] HWY_INLINE Lanes<W> larger(Lanes<W> a, Lanes<W> b) {
+    return Lanes<W>(hn::Max(a.v, b.v));
+}
+template <std::size_t W>
 [[nodiscard]] HWY_INLINE Lanes<W> magnitude(Lanes<W> a) {
     return Lanes<W>(hn::Abs(a.v));
 }

@@ -22,6 +22,8 @@ using MaskOf = decltype(Real(0.0F) < Real(0.0F));
 [[nodiscard]] HWY_INLINE bool both(bool a, bool b) { return a && b; }
 [[nodiscard]] HWY_INLINE bool either(bool a, bool b) { return a || b; }
 [[nodiscard]] HWY_INLINE float select(bool mask, float yes, float no) { return mask ? yes : no; }
+[[nodiscard]] HWY_INLINE float smaller(float a, float b) { return a < b ? a : b; }
+[[nodiscard]] HWY_INLINE float larger(float a, float b) { return a > b ? a : b; }
 [[nodiscard]] HWY_INLINE float magnitude(float a) { return std::abs(a); }
 /// `a`, its sign flipped where `by` is negative (-0 is).
 [[nodiscard]] HWY_INLINE float flip_sign(float a, float by) {
