@@ -14,7 +14,8 @@ struct MollerTrumboreDeferred : RayAsGiven, DeferredDivision {
     static constexpr MethodInfo info{.name = "moller_trumbore_deferred",
                                      .title = "Moller-Trumbore, deferred",
                                      .source = "[MT97] eq. 6, [MOL00]",
-                                     .stored_bytes = 36};
+                                     .stored_bytes = 36,
+                                     .is_pair_reversed = true};
     static constexpr bool has_pair = true;
 
     template <class Real>

@@ -14,7 +14,8 @@ struct PluckerTwoCross : RayAsGiven, TwoDivisions {
     static constexpr MethodInfo info{.name = "plucker_two_cross",
                                      .title = "Pluecker, two cross products",
                                      .source = "[ERI97]",
-                                     .stored_bytes = 36};
+                                     .stored_bytes = 36,
+                                     .is_pair_reversed = true};
     static constexpr bool has_pair = true;
 
     template <class Real>

@@ -87,8 +87,7 @@ struct Woop : DeferredDivision {
         const Real det = by.w + by.u + by.v;
         const Real t = (by.w * p.z + by.u * q.z + by.v * r.z) * ray.scale_z;
         const Real size = magnitude(det), distance = flip_sign(t, det);
-        const auto is_hit =
-            both(is_in, both(distance > interval.t_min * size, distance < interval.t_max * size));
+        const auto is_hit = both(is_in, is_within(interval, distance, size));
         return {is_hit, t, by.u, by.v, det};
     }
 

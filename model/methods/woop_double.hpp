@@ -22,14 +22,16 @@ struct WoopDouble : Woop {
         const Sheared<Real> a = shear(ray, triangle.a, axis);
         const Sheared<Real> b = shear(ray, triangle.b, axis);
         const Sheared<Real> c = shear(ray, triangle.c, axis);
-        Real of_a = edge_function(b, c), of_b = edge_function(c, a), of_c = edge_function(a, b);
-        const MaskOf<Real> is_doubtful = either(either(of_a == zero, of_b == zero), of_c == zero);
+        Weights<Real> by{edge_function(c, a), edge_function(a, b), edge_function(b, c)};
+        const MaskOf<Real> is_doubtful = either(either(by.u == zero, by.v == zero), by.w == zero);
         if (!is_none(is_doubtful)) {
-            of_a = select(is_doubtful, edge_function_in_double(b.x, b.y, c.x, c.y), of_a);
-            of_b = select(is_doubtful, edge_function_in_double(c.x, c.y, a.x, a.y), of_b);
-            of_c = select(is_doubtful, edge_function_in_double(a.x, a.y, b.x, b.y), of_c);
+            by.u = select(is_doubtful, edge_function_in_double(c.x, c.y, a.x, a.y), by.u);
+            by.v = select(is_doubtful, edge_function_in_double(a.x, a.y, b.x, b.y), by.v);
+            by.w = select(is_doubtful, edge_function_in_double(b.x, b.y, c.x, c.y), by.w);
         }
-        return decide(ray, interval, of_a, of_b, of_c, a, b, c);
+        const MaskOf<Real> is_in = by.agree();
+        if (is_none(is_in)) return {is_in};
+        return at_depth(ray, interval, is_in, by, a, b, c);
     }
 };
 

@@ -50,11 +50,6 @@ TEST(MethodTemplates, KeepAsManyBytesAsTheySay) {
     });
 }
 
-// The second triangle of a pair is tested as (a, c, d), or as (a, d, c).
-template <class M>
-constexpr bool is_second_reversed =
-    std::is_same_v<M, MollerTrumboreDeferred> || std::is_same_v<M, PluckerTwoCross>;
-
 void expect_same(const Candidate<float>& got, const Distances<float>& hit, const Candidate<float>& expected,
                  const Distances<float>& alone, std::string_view name) {
     ASSERT_EQ(got.is_hit, expected.is_hit) << name;
@@ -77,7 +72,7 @@ void expect_pairs_to_give_what_triangles_give() {
         const auto got = M::test_pair(kept, ray.interval, M::store_pair(a, b, c, d, axis), axis);
         const auto first = M::test(kept, ray.interval, M::store(a, b, c, axis), axis);
         expect_same(got.first, M::finish(got.first), first, M::finish(first), M::info.name);
-        if constexpr (is_second_reversed<M>) {
+        if constexpr (M::info.is_pair_reversed) {
             const auto second = M::test(kept, ray.interval, M::store(a, d, c, axis), axis);
             const auto alone = M::finish(second);
             expect_same(got.second, M::finish(got.second), second, {alone.t, alone.v, alone.u}, M::info.name);
@@ -94,6 +89,7 @@ void expect_pairs_to_give_what_triangles_give() {
     EXPECT_GT(both_hit, 30) << M::info.name;
 }
 
+// The second triangle of a pair is tested as (a, c, d), or as (a, d, c).
 TEST(MethodTemplates, GiveForAPairWhatItsTrianglesGive) {
     int pairs = 0;
     for_each(AllMethods(), [&]<class M>(M) {
