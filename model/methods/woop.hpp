@@ -39,8 +39,8 @@ struct Woop : DeferredDivision {
     template <class Real>
     [[nodiscard]] static RayData<Real> prepare(const Vector<Real>& origin, const Vector<Real>& direction,
                                                Axis axis) {
-        const Real inverse = Real(1.0F) / pick<0>(axis, direction);
-        return {origin, pick<1>(axis, direction) * inverse, pick<2>(axis, direction) * inverse, inverse};
+        const Real d = pick<0>(axis, direction);
+        return {origin, pick<1>(axis, direction) / d, pick<2>(axis, direction) / d, Real(1.0F) / d};
     }
     template <class Real>
     [[nodiscard]] static Stored<Real> store(const Vector<Real>& a, const Vector<Real>& b,
@@ -87,8 +87,7 @@ struct Woop : DeferredDivision {
         const Real det = by.w + by.u + by.v;
         const Real t = (by.w * p.z + by.u * q.z + by.v * r.z) * ray.scale_z;
         const Real size = magnitude(det), distance = flip_sign(t, det);
-        const auto is_hit =
-            both(is_in, both(distance > interval.t_min * size, distance < interval.t_max * size));
+        const auto is_hit = both(is_in, is_within(interval, distance, size));
         return {is_hit, t, by.u, by.v, det};
     }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "model/methods/kernel.hpp"
 #include "model/random.hpp"
@@ -37,9 +38,17 @@ std::vector<Ray> random_rays(std::uint32_t count) {
     return rays;
 }
 
+// The second of each pair (a, b, c), (a, c, d) as (a, d, c).
+std::vector<Corners> with_second_reversed(std::vector<Corners> triangles) {
+    for (std::size_t i = 1; i < triangles.size(); i += 2) std::swap(triangles[i][1], triangles[i][2]);
+    return triangles;
+}
+
 // What the method's single call says of every ray and triangle.
-std::vector<RayResult> one_by_one(const Method& method, const std::vector<Corners>& triangles,
+std::vector<RayResult> one_by_one(const Method& method, Form form, const std::vector<Corners>& as_given,
                                   const std::vector<Ray>& rays) {
+    const bool is_reversed = form == Form::Pairs && method.info.is_pair_reversed;
+    const auto triangles = is_reversed ? with_second_reversed(as_given) : as_given;
     std::vector<RayResult> results;
     for (const Ray& ray : rays) {
         RayResult result;
@@ -49,6 +58,7 @@ std::vector<RayResult> one_by_one(const Method& method, const std::vector<Corner
             if (result.hit_count++ == 0 || hit->t < result.nearest.t) {
                 result.nearest = *hit;
                 result.triangle = i;
+                if (is_reversed && i % 2 == 1) std::swap(result.nearest.u, result.nearest.v);
             }
         }
         results.push_back(result);
@@ -76,7 +86,7 @@ TEST(MethodKernels, GiveWhatTheSingleCallGivesInEveryFormAndWidth) {
     const auto rays = random_rays(101);
     for (const Kernel& kernel : all_kernels()) {
         const Method& method = *find_method(kernel.method.name);
-        const auto expected = one_by_one(method, triangles, rays);
+        const auto expected = one_by_one(method, kernel.form, triangles, rays);
         const auto results = traced(kernel, triangles, rays, false);
         for (std::size_t i = 0; i < rays.size(); ++i)
             EXPECT_TRUE(results[i] == expected[i]) << text(kernel) << ", ray " << i;
