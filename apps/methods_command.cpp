@@ -27,7 +27,7 @@ constexpr const char* description =
 struct Arguments {
     std::vector<std::string> scenes;
     std::string methods, forms;
-    std::uint32_t triangle_count = 1024, ray_count = 256, repeats = 15;
+    std::uint32_t triangle_count = 1024, ray_count = 256, repeats = 7;
     std::string workloads = "primary,diffuse";
     std::string camera;
     std::string seed = "1";

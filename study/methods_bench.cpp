@@ -26,8 +26,9 @@ struct Times {
     double first_pass = store, shrinking = store, worst = store;
 };
 
-// Passes in a row over the same rays.
-constexpr int passes = 5;
+// Passes in a row over the same rays: what a branch predictor can learn by heart it has learned after ten.
+constexpr int most_passes = 15;
+constexpr double enough_seconds = 0.02;
 
 struct Candidate {
     Kernel kernel;
@@ -44,9 +45,16 @@ void time_once(const MethodsWorkload& workload, Candidate& one) {
         return seconds_of([&] { one.kernel.trace(one.triangles, workload.rays, shrinks, one.results); });
     };
     least.first_pass = std::min(least.first_pass, trace(true));
-    for (int pass = 1; pass < passes; ++pass) least.shrinking = std::min(least.shrinking, trace(true));
-    for (int pass = 0; pass < passes; ++pass)  // last: its results give the share of hits
-        least.worst = std::min(least.worst, trace(false));
+    const auto trace_often = [&](bool shrinks, double& shortest) {
+        double spent = 0;
+        for (int pass = 0; pass < most_passes && spent < enough_seconds; ++pass) {
+            const double seconds = trace(shrinks);
+            shortest = std::min(shortest, seconds);
+            spent += seconds;
+        }
+    };
+    trace_often(true, least.shrinking);
+    trace_often(false, least.worst);  // last: its results give the share of hits
 }
 
 MethodsRow row_of(const Candidate& one, const MethodsWorkload& workload) {

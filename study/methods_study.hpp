@@ -20,7 +20,7 @@ struct MethodsOptions {
     std::vector<model::methods::Form> forms;  ///< empty: all
     std::uint32_t triangle_count = 1024;      ///< of the random workload; even, 2 to 2^20
     std::uint32_t ray_count = 256;            ///< of the random workload, 1 to 2^20
-    std::uint32_t repeats = 15;
+    std::uint32_t repeats = 7;
     std::uint64_t seed = 1;
     std::vector<SceneSource> scenes;  ///< whose own mix of rays and leaves is measured too
     std::vector<model::WorkloadKind> workloads;
