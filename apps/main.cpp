@@ -12,6 +12,7 @@
 
 #include "apps/config_command.hpp"
 #include "apps/exit_code.hpp"
+#include "apps/methods_command.hpp"
 #include "apps/pairing_command.hpp"
 #include "apps/precision_command.hpp"
 #include "apps/run_command.hpp"
@@ -33,6 +34,7 @@ constexpr const char* footer =
     "  rtusim run bunny.glb --check            a glTF file, every hit verified\n"
     "  rtusim run --help                       all options of a run\n"
     "  rtusim pairing bunny.glb                what triangle pairing does to the hardware\n"
+    "  rtusim methods                          how fast each ray-triangle test is on this host\n"
     "  rtusim precision bunny.glb              the cheapest test and number format for its rays\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
@@ -41,8 +43,9 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (!app.get_subcommands().empty()) return error.what();
     const std::vector<std::string> rest = app.remaining();
     return rest.empty()
-               ? "expected a command, run, pairing, precision or config"
-               : fmt::format("expected a command, run, pairing, precision or config, got '{}'", rest.front());
+               ? "expected a command, run, pairing, methods, precision or config"
+               : fmt::format("expected a command, run, pairing, methods, precision or config, got '{}'",
+                             rest.front());
 }
 
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -80,6 +83,7 @@ int run_cli(int argc, char** argv) {
     std::function<int()> command;
     add_run_command(app, command);
     add_pairing_command(app, command);
+    add_methods_command(app, command);
     add_precision_command(app, command);
     add_config_command(app, command);
     return guarded([&] {

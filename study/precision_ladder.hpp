@@ -21,7 +21,7 @@ struct PrecisionOptions {
     std::vector<SceneSource> scenes;
     std::vector<model::WorkloadKind> workloads{model::WorkloadKind::Primary, model::WorkloadKind::Diffuse};
     std::vector<std::string> methods;  ///< names of emulated_methods(); empty: all
-    std::uint32_t ray_count = 2000;    ///< of each workload, and as many at edges and vertices
+    std::uint32_t ray_count = 4000;    ///< of each workload, and at most as many at edges and vertices
     double t_tolerance = 0x1p-10;      ///< how far t may be off, of itself
     double wrong_per_million = 1000;   ///< rays that may be wrong
     std::uint64_t seed = 1;

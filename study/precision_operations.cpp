@@ -17,6 +17,7 @@ struct Counting {
     float value = 0;
     Counting() = default;
     explicit Counting(float v) : value(v) {}
+    explicit Counting(double v) : value(static_cast<float>(v)) {}
     friend Counting operator+(Counting a, Counting b) { return done(counted.add, a.value + b.value); }
     friend Counting operator-(Counting a, Counting b) { return done(counted.add, a.value - b.value); }
     friend Counting operator*(Counting a, Counting b) { return done(counted.mul, a.value * b.value); }
@@ -26,6 +27,10 @@ struct Counting {
     friend bool operator>(Counting a, Counting b) { return a.value > b.value; }
     friend bool operator<=(Counting a, Counting b) { return a.value <= b.value; }
     friend bool operator>=(Counting a, Counting b) { return a.value >= b.value; }
+    friend bool operator==(Counting a, Counting b) { return a.value == b.value; }
+    explicit operator double() const { return double(value); }
+    friend Counting smaller(Counting a, Counting b) { return a < b ? a : b; }
+    friend Counting larger(Counting a, Counting b) { return a > b ? a : b; }
     friend Counting select(bool mask, Counting yes, Counting no) { return mask ? yes : no; }
     friend Counting magnitude(Counting a) { return Counting(methods::magnitude(a.value)); }
     friend Counting flip_sign(Counting a, Counting by) {
@@ -54,7 +59,7 @@ TestOperations counted_test() {
                         of_triangle = axis_of_triangle(M::info, a, b, c);
     const auto kept = M::prepare(origin, direction, of_ray);
     const auto stored = M::store(a, b, c, of_triangle);
-    const methods::Interval<Counting> interval{Counting(0), Counting(9)};
+    const methods::Interval<Counting> interval{Counting(0.0F), Counting(9.0F)};
     counted = {};
     const auto candidate =
         M::test(kept, interval, stored, M::info.axis_owner == AxisOwner::Ray ? of_ray : of_triangle);

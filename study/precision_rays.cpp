@@ -1,7 +1,9 @@
 #include "study/precision_rays.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -72,13 +74,22 @@ class Neighbours {
             for (const std::uint32_t vertex : mesh.triangles[i]) triangles_[next[ids_[vertex]]++] = i;
     }
 
-    [[nodiscard]] std::vector<Corners> around(std::uint32_t vertex, std::uint32_t other) const {
+    // All triangles around both; a vertex and itself are one.
+    [[nodiscard]] std::vector<std::uint32_t> around(std::uint32_t vertex, std::uint32_t other) const {
         std::set<std::uint32_t> found;
         for (const std::uint32_t v : {ids_[vertex], ids_[other]})
             found.insert(triangles_.begin() + begins_[v], triangles_.begin() + begins_[v + 1]);
-        std::vector<Corners> corners;
-        for (const std::uint32_t triangle : found) corners.push_back(corners_of(mesh_, triangle));
-        return corners;
+        return {found.begin(), found.end()};
+    }
+
+    // Whether every edge at the vertex joins two of its triangles.
+    [[nodiscard]] bool is_closed(std::uint32_t vertex) const {
+        const std::uint32_t id = ids_[vertex];
+        std::map<std::uint32_t, int> edges;  // by their other end
+        for (std::uint32_t i = begins_[id]; i < begins_[id + 1]; ++i)
+            for (const std::uint32_t corner : mesh_.triangles[triangles_[i]])
+                if (ids_[corner] != id) ++edges[ids_[corner]];
+        return std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 2; });
     }
 
   private:
@@ -86,6 +97,19 @@ class Neighbours {
     std::vector<std::uint32_t> ids_;                 // of each vertex
     std::vector<std::uint32_t> begins_, triangles_;  // those of vertex v: [begins_[v], begins_[v + 1])
 };
+
+// Whether the ray runs through all triangles from the front, or through all from the back, none nearly
+// edge-on: the surface around its aim is no silhouette, where two hits and none are both right.
+bool is_seen_from_one_side(const RayTriangles& aimed) {
+    int front = 0, back = 0;
+    for (const Corners& triangle : aimed.triangles) {
+        const model::Vec3 n = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+        const float along = dot(n, aimed.ray.direction);
+        if (!(std::abs(along) > 0.05F * length(n) * length(aimed.ray.direction))) return false;
+        ++(along < 0 ? front : back);
+    }
+    return front == 0 || back == 0;
+}
 
 }  // namespace
 
@@ -117,10 +141,13 @@ std::vector<RayTriangles> aimed_rays(const TriangleMesh& mesh, const model::Memo
         const model::Triangle& t = mesh.triangles[hit->primitive_id];
         const auto side = std::size_t(random.next() * 3);
         const std::uint32_t a = t[side], b = rays.size() % 2 == 0 ? a : t[(side + 1) % 3];
+        if (!neighbours.is_closed(a) || !neighbours.is_closed(b)) continue;
         const model::Vec3 from = mesh.positions[a], to = mesh.positions[b];
         const model::Vec3 aim = from + (to - from) * random.next();
-        const model::Ray at_edge{ray.origin, 0, aim - ray.origin, std::numeric_limits<float>::infinity()};
-        rays.push_back({at_edge, neighbours.around(a, b)});
+        RayTriangles aimed{{ray.origin, 0, aim - ray.origin, std::numeric_limits<float>::infinity()}, {}};
+        for (const std::uint32_t triangle : neighbours.around(a, b))
+            aimed.triangles.push_back(corners_of(mesh, triangle));
+        if (is_seen_from_one_side(aimed)) rays.push_back(std::move(aimed));
     }
     return rays;
 }

@@ -25,7 +25,8 @@ struct RayTriangles {
 
 /// Rays from the origins of the workload's rays, at most `ray_count`, at the vertices (every second) and the
 /// edges of the triangles that those hit, each with all triangles around that vertex, or around both ends of
-/// that edge. Corners are one vertex where their positions are bit-equal.
+/// that edge. Corners are one vertex where their positions are bit-equal. Left out are rays at the surface's
+/// border, and where its triangles are not all seen from one side: elsewhere a hit is owed.
 [[nodiscard]] std::vector<RayTriangles> aimed_rays(const model::TriangleMesh& mesh,
                                                    const model::MemoryImage& image,
                                                    const model::Workload& workload, std::uint32_t ray_count,

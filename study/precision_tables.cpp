@@ -128,13 +128,24 @@ StudyTable filter_table(const PrecisionReport& report, const PrecisionAnswer& sc
                     {"Passed\n%"},
                     {"False positives\n%"},
                     {"False negatives"},
-                    {"Area"}},
+                    {"Area"},
+                    {"Area with\nwhat follows"}},
         .rows = {}};
+    const PrecisionRow* after = row_of(report, scene.scene, "woop_top_left", model::methods::binary32);
+    const double full = after == nullptr ? 0 : after->area.value_or(0);
+    if (full > 0) {
+        table.note += fmt::format(
+            "\nWith what follows: the area of woop_top_left in binary32, {:.1f}, counts for "
+            "the share of tests that it is given.",
+            full);
+    }
     for (const FilterRow& row : report.filters) {
         if (row.scene != scene.scene) continue;
-        table.rows.push_back({to_string(row.format), grouped(row.tests), percent(row.hits, row.tests),
-                              percent(row.passed, row.tests), fixed(row.false_positive_percent(), 2),
-                              grouped(row.false_negatives), area(row.area)});
+        table.rows.push_back(
+            {to_string(row.format), grouped(row.tests), percent(row.hits, row.tests),
+             percent(row.passed, row.tests), fixed(row.false_positive_percent(), 2),
+             grouped(row.false_negatives), area(row.area),
+             full > 0 ? area(row.area + full * double(row.passed) / double(row.tests)) : "-"});
     }
     return table;
 }

@@ -12,8 +12,8 @@ namespace rtu::model::methods {
 /// A number of a format that is chosen at run time, for the methods' templates: held in binary64, and rounded
 /// to the format after each operation. Rounding twice is innocent, as binary64 has more than twice a
 /// significand of 24 bits and two more [Fig95], and more than the range of a 10-bit exponent: (8, 23) is
-/// binary32 to the bit. A number made from a float is a constant of any format, and is not rounded: only 0, 1
-/// and what else every format holds may be made so.
+/// binary32 to the bit. A number made from a float is a constant of any format, and is not rounded: only 0
+/// and powers of two may be made so.
 struct Emulated {
     double value = 0;
     NumberFormat format{0, 0};  ///< no bits: a constant
@@ -32,6 +32,8 @@ struct Emulated {
     [[nodiscard]] friend bool operator>(Emulated a, Emulated b) { return a.value > b.value; }
     [[nodiscard]] friend bool operator<=(Emulated a, Emulated b) { return a.value <= b.value; }
     [[nodiscard]] friend bool operator>=(Emulated a, Emulated b) { return a.value >= b.value; }
+    [[nodiscard]] friend bool operator==(Emulated a, Emulated b) { return a.value == b.value; }
+    explicit operator double() const { return value; }
 
     [[nodiscard]] friend Emulated select(bool mask, Emulated yes, Emulated no) { return mask ? yes : no; }
     [[nodiscard]] friend Emulated magnitude(Emulated a) { return exactly(a.format, std::abs(a.value)); }
@@ -40,6 +42,19 @@ struct Emulated {
     }
     [[nodiscard]] friend bool has_same_sign(Emulated a, Emulated b) {
         return std::signbit(a.value) == std::signbit(b.value);
+    }
+    [[nodiscard]] friend Emulated smaller(Emulated a, Emulated b) { return a < b ? a : b; }
+    [[nodiscard]] friend Emulated larger(Emulated a, Emulated b) { return a > b ? a : b; }
+    /// As for other scalars (numeric-inl.hpp): products of two are exact in binary64, what is returned is
+    /// rounded to the format.
+    [[nodiscard]] friend Emulated edge_function_in_double(Emulated x1, Emulated y1, Emulated x2,
+                                                          Emulated y2) {
+        return made(x1, y1, x1.value * y2.value - y1.value * x2.value);
+    }
+    [[nodiscard]] friend Emulated owned_edge_function(Emulated x1, Emulated y1, Emulated x2, Emulated y2) {
+        const double exact = x1.value * y2.value - y1.value * x2.value;
+        if (exact < 0 || exact > 0) return made(x1, y1, exact);
+        return exactly(x1.format, y1 < y2 || (y1 == y2 && x1 > x2) ? -0.0 : 0.0);
     }
 
   private:
