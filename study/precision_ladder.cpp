@@ -155,20 +155,22 @@ std::vector<EmulatedMethod> chosen_methods(const PrecisionOptions& options) {
     return chosen;
 }
 
-std::optional<std::size_t> cheapest(const PrecisionReport& report, const std::string& scene) {
+// Wider formats of the same exponent are good enough, too.
+bool is_steady(const PrecisionReport& report, const PrecisionRow& row) {
+    const auto rungs = ladder(report, row.scene, row.method, row.format.exponent_bits);
+    return std::ranges::all_of(rungs, [&](const PrecisionRow* rung) {
+        return rung->format.mantissa_bits < row.format.mantissa_bits || rung->is_enough;
+    });
+}
+
+std::optional<std::size_t> cheapest(const PrecisionReport& report, const std::string& scene,
+                                    bool must_be_watertight) {
     const PrecisionRow* best = nullptr;
+    const auto price = [](const PrecisionRow& row) { return std::pair(*row.area, row.format.width_bits()); };
     for (const PrecisionRow& row : report.rows) {
-        if (row.scene != scene || !row.area || !row.is_enough) continue;
-        const auto rungs = ladder(report, scene, row.method, row.format.exponent_bits);
-        const bool is_steady = std::ranges::all_of(rungs, [&](const PrecisionRow* rung) {
-            return rung->format.mantissa_bits < row.format.mantissa_bits || rung->is_enough;
-        });
-        const auto is_better = [&] {
-            if (best == nullptr || *row.area != *best->area)
-                return best == nullptr || *row.area < *best->area;
-            return row.format.width_bits() < best->format.width_bits();
-        };
-        if (is_steady && is_better()) best = &row;
+        if (row.scene != scene || !row.area || !row.is_enough || !is_steady(report, row)) continue;
+        if (must_be_watertight && !row.is_watertight()) continue;
+        if (best == nullptr || price(row) < price(*best)) best = &row;
     }
     return best == nullptr ? std::nullopt : std::optional(std::size_t(best - report.rows.data()));
 }
@@ -275,12 +277,14 @@ PrecisionReport run_precision_study(const PrecisionOptions& options) {
         for (FilterRow& row : filter_rows(source.name(), rays.sampled)) {
             report.filters.push_back(std::move(row));
         }
-        PrecisionAnswer answer{
-            .scene = source.name(), .rays = rays.sampled.size(), .workloads = {}, .row = {}};
+        PrecisionAnswer answer;
+        answer.scene = source.name();
+        answer.rays = rays.sampled.size();
         for (const model::WorkloadKind kind : options.workloads) {
             answer.workloads.emplace_back(to_string(kind));
         }
-        answer.row = cheapest(report, source.name());
+        answer.row = cheapest(report, source.name(), false);
+        answer.watertight_row = cheapest(report, source.name(), true);
         report.scenes.push_back(std::move(answer));
     }
     return report;

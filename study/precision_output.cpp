@@ -57,10 +57,12 @@ Json json(const FilterRow& row) {
 }
 
 Json answer(const PrecisionReport& report, const PrecisionAnswer& scene) {
-    return {{"scene", scene.scene},
-            {"rays", scene.rays},
-            {"workloads", scene.workloads},
-            {"row", scene.row ? json(report.rows[*scene.row]) : Json(nullptr)}};
+    return {
+        {"scene", scene.scene},
+        {"rays", scene.rays},
+        {"workloads", scene.workloads},
+        {"row", scene.row ? json(report.rows[*scene.row]) : Json(nullptr)},
+        {"watertight_row", scene.watertight_row ? json(report.rows[*scene.watertight_row]) : Json(nullptr)}};
 }
 
 std::string cell(const Json& value) {

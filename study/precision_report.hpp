@@ -37,6 +37,7 @@ struct PrecisionRow {
     bool is_enough = false;
 
     [[nodiscard]] std::uint64_t wrong() const { return lost + gained + moved; }
+    [[nodiscard]] bool is_watertight() const { return leaks == 0 && doubles == 0; }
 };
 
 /// A quantised filter on the tests of a scene's rays.
@@ -58,7 +59,9 @@ struct PrecisionAnswer {
     std::string scene;
     std::uint64_t rays = 0;
     std::vector<std::string> workloads;
-    std::optional<std::size_t> row;  ///< in PrecisionReport::rows: of least area among those good enough
+    /// In PrecisionReport::rows: of least area among those good enough, and among those of them that neither
+    /// leak nor hit twice.
+    std::optional<std::size_t> row, watertight_row;
 };
 
 struct PrecisionReport {
