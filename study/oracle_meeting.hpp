@@ -19,6 +19,9 @@ enum class Meeting : std::uint8_t {
     Degenerate  ///< it touches the line or point that is all of the triangle: never a hit
 };
 
+/// The least number whose nearest binary32 is infinity: half a unit beyond the largest.
+inline constexpr double first_to_round_to_infinity = 0x1.ffffffp127;
+
 template <class Number>
 using NumberVector = std::array<Number, 3>;
 

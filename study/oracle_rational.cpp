@@ -29,20 +29,15 @@ RationalMeeting meet_exactly(const model::Ray& ray, const model::methods::Corner
 }
 
 bool is_in_interval(const model::Ray& ray, const Rational& t) {
-    const auto is_below = [&t](float limit) {
-        return std::isinf(limit) ? limit < 0 : Rational(double(limit)) < t;
-    };
-    const auto is_above = [&t](float limit) {
-        return std::isinf(limit) ? limit > 0 : Rational(double(limit)) > t;
-    };
-    return is_below(ray.t_min) && is_above(ray.t_max);
+    const bool is_above = std::isinf(ray.t_min) ? ray.t_min < 0 : t > Rational(double(ray.t_min));
+    if (std::isinf(ray.t_max)) return is_above && ray.t_max > 0 && t < Rational(first_to_round_to_infinity);
+    return is_above && t < Rational(double(ray.t_max));
 }
 
 float rounded_to_float(const Rational& value) {
     constexpr float largest = std::numeric_limits<float>::max();
     const Rational size = abs(value);
-    const Rational limit = Rational(double(largest)) + Rational(0x1p103);  // half a unit beyond: a tie
-    if (size >= limit) return value < 0 ? -INFINITY : INFINITY;
+    if (size >= Rational(first_to_round_to_infinity)) return value < 0 ? -INFINITY : INFINITY;
     // Positive floats are ordered like their bits: the largest one that is not above the value.
     std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(largest);
     while (low < high) {

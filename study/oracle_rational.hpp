@@ -25,7 +25,8 @@ struct RationalMeeting {
 /// zero; the ray's interval plays no part.
 [[nodiscard]] RationalMeeting meet_exactly(const model::Ray& ray, const model::methods::Corners& corners);
 
-/// Whether t lies in the ray's open interval. t_min and t_max may be infinite, not NaN.
+/// Whether t lies in the ray's open interval. t_min and t_max may be infinite, not NaN. A t that no finite
+/// binary32 is near never does.
 [[nodiscard]] bool is_in_interval(const model::Ray& ray, const Rational& t);
 
 /// The nearest binary32, of two equally near ones the even one; infinity beyond the largest.

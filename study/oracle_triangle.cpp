@@ -66,11 +66,12 @@ bool have_opposite_signs(const std::array<Bounded, 3>& weights) {
 
 // Nothing when t is too near an end of the interval for binary64 to tell, or may be.
 std::optional<bool> is_inside_interval(const Ray& ray, double t) {
-    const auto is_near = [t](float limit) {
-        return limit != 0 && std::abs(t - double(limit)) <= 0x1p-38 * std::abs(t);
+    const auto is_near = [t](double limit) {
+        return limit != 0 && std::abs(t - limit) <= 0x1p-38 * std::abs(t);
     };
-    if (is_near(ray.t_min) || is_near(ray.t_max)) return std::nullopt;
-    return t > double(ray.t_min) && t < double(ray.t_max);
+    const double t_max = std::min(double(ray.t_max), first_to_round_to_infinity);
+    if (is_near(ray.t_min) || is_near(t_max)) return std::nullopt;
+    return t > double(ray.t_min) && t < t_max;
 }
 
 bool is_meeting(Meeting meeting) {

@@ -130,7 +130,7 @@ StabilityReport run_stability(const StabilityOptions& options) {
 
 std::uint64_t failures(const Measured& measured, const Tally& tally) {
     if (measured.doubles) return tally.leaks + tally.doubles;
-    if (measured.crossings) return tally.parity_errors;
+    if (measured.crossings) return tally.leaks;
     if (measured.triangles) return tally.false_hits + tally.false_misses + tally.non_finite;
     if (measured.self_hits) return tally.self_hits;
     if (measured.variants) return tally.variant_errors;

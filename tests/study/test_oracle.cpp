@@ -270,6 +270,9 @@ TEST(Oracle, TellsTheEndsOfTheIntervalExactly) {
     EXPECT_FALSE(is_met(1, above));
     EXPECT_FALSE(is_met(below, 1));
     EXPECT_FALSE(decide({{1, 1, 0}, 0, {0, 0, -3}, 9}, corners).is_met());
+    // The largest float, and beyond what rounds to it.
+    EXPECT_TRUE(decide({{1, 1, 0x1p64F}, 0, {0, 0, -0x1p-63F}, infinity}, corners).is_met());
+    EXPECT_FALSE(decide({{1, 1, 0x1p64F}, 0, {0, 0, -0x1p-64F}, infinity}, corners).is_met());
     EXPECT_TRUE(decide({{1, 1, 0x1p-149F}, 0, {0, 0, -3}, 9}, corners).is_met());
 }
 
