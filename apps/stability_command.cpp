@@ -50,15 +50,10 @@ std::string footer() {
            "  rtusim stability --json - | jq '.rows[] | select(.leaks > 0) | .method'\n";
 }
 
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> parts;
-    if (text.empty()) return parts;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        parts.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return parts;
+std::vector<std::string> names(const std::string& text) {
+    if (text.empty()) return {};
+    const auto parts = split(text);
+    return {parts.begin(), parts.end()};
 }
 
 std::uint64_t parse_rays(const std::string& text) {
@@ -79,8 +74,8 @@ struct StabilityPlan {
 
 StabilityPlan make_plan(const StabilityArguments& arguments) {
     StabilityPlan plan;
-    plan.options.methods = split(arguments.methods);
-    plan.options.cases = split(arguments.cases);
+    plan.options.methods = names(arguments.methods);
+    plan.options.cases = names(arguments.cases);
     plan.options.rays = parse_rays(arguments.rays);
     plan.options.seed = parse_seed(arguments.seed);
     std::vector<std::filesystem::path> inputs;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "model/methods/kernel.hpp"
 #include "model/methods/method.hpp"
 
 namespace rtu::model::methods {
@@ -16,5 +18,8 @@ inline constexpr MethodInfo exact_info{.name = "exact",
                                        .source = "docs/model.md",
                                        .stored_bytes = 36,
                                        .axis_owner = AxisOwner::Ray};
+
+/// Forms Single and Pairs, as the machine runs it: lone triangles and pairs of the memory image, scalar code.
+[[nodiscard]] std::vector<Kernel> exact_kernels();
 
 }  // namespace rtu::model::methods

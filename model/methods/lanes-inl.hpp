@@ -42,6 +42,7 @@ struct Lanes {
     [[nodiscard]] friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(hn::Mul(a.v, b.v)); }
     [[nodiscard]] friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return Lanes(hn::Div(a.v, b.v)); }
     [[nodiscard]] friend HWY_INLINE Lanes operator-(Lanes a) { return Lanes(hn::Neg(a.v)); }
+    [[nodiscard]] friend HWY_INLINE LaneMask<W> operator==(Lanes a, Lanes b) { return {hn::Eq(a.v, b.v)}; }
     [[nodiscard]] friend HWY_INLINE LaneMask<W> operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
     [[nodiscard]] friend HWY_INLINE LaneMask<W> operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
     [[nodiscard]] friend HWY_INLINE LaneMask<W> operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
@@ -65,6 +66,14 @@ template <std::size_t W>
     return Lanes<W>(hn::IfThenElse(mask.bits, yes.v, no.v));
 }
 template <std::size_t W>
+[[nodiscard]] HWY_INLINE Lanes<W> smaller(Lanes<W> a, Lanes<W> b) {
+    return Lanes<W>(hn::Min(a.v, b.v));
+}
+template <std::size_t W>
+[[nodiscard]] HWY_INLINE Lanes<W> larger(Lanes<W> a, Lanes<W> b) {
+    return Lanes<W>(hn::Max(a.v, b.v));
+}
+template <std::size_t W>
 [[nodiscard]] HWY_INLINE Lanes<W> magnitude(Lanes<W> a) {
     return Lanes<W>(hn::Abs(a.v));
 }
@@ -79,6 +88,24 @@ template <std::size_t W>
     const hn::RebindToSigned<LanesTag<W>> signed_tag;
     const auto differs = hn::BitCast(signed_tag, hn::Xor(a.v, b.v));
     return {hn::Not(hn::RebindMask(d, hn::Lt(differs, hn::Zero(signed_tag))))};
+}
+
+/// Lane by lane, slowly: edge_function_in_double and owned_edge_function.
+template <std::size_t W>
+[[nodiscard]] HWY_NOINLINE Lanes<W> edge_function_in_double(Lanes<W> x1, Lanes<W> y1, Lanes<W> x2,
+                                                            Lanes<W> y2) {
+    HWY_ALIGN float x[2][W], y[2][W], result[W];
+    x1.store(x[0]), y1.store(y[0]), x2.store(x[1]), y2.store(y[1]);
+    for (std::size_t i = 0; i < W; ++i)
+        result[i] = edge_function_in_double(x[0][i], y[0][i], x[1][i], y[1][i]);
+    return Lanes<W>::load(result);
+}
+template <std::size_t W>
+[[nodiscard]] HWY_NOINLINE Lanes<W> owned_edge_function(Lanes<W> x1, Lanes<W> y1, Lanes<W> x2, Lanes<W> y2) {
+    HWY_ALIGN float x[2][W], y[2][W], result[W];
+    x1.store(x[0]), y1.store(y[0]), x2.store(x[1]), y2.store(y[1]);
+    for (std::size_t i = 0; i < W; ++i) result[i] = owned_edge_function(x[0][i], y[0][i], x[1][i], y[1][i]);
+    return Lanes<W>::load(result);
 }
 
 /// An axis in each lane.

@@ -33,6 +33,8 @@ struct MethodInfo {
     std::uint32_t stored_bytes;  ///< kept of a triangle, its axis aside
     AxisOwner axis_owner = AxisOwner::None;
     bool is_one_sided = false;  ///< triangles seen from behind (clockwise) are not hit
+    /// In its pair form the second triangle is tested as (a, d, c); else as (a, c, d).
+    bool is_pair_reversed = false;
 };
 
 /// How the compiler may treat a * b + c: as two roundings, or fused into one where the processor can.

@@ -5,8 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <type_traits>
 
+#include "model/exact_predicates.hpp"
 #include "model/methods/target.hpp"
+#include "model/vec3.hpp"
 
 RTU_BEFORE_TARGET();
 namespace rtu::model::methods::RTU_TARGET {
@@ -18,6 +22,8 @@ using MaskOf = decltype(Real(0.0F) < Real(0.0F));
 [[nodiscard]] HWY_INLINE bool both(bool a, bool b) { return a && b; }
 [[nodiscard]] HWY_INLINE bool either(bool a, bool b) { return a || b; }
 [[nodiscard]] HWY_INLINE float select(bool mask, float yes, float no) { return mask ? yes : no; }
+[[nodiscard]] HWY_INLINE float smaller(float a, float b) { return a < b ? a : b; }
+[[nodiscard]] HWY_INLINE float larger(float a, float b) { return a > b ? a : b; }
 [[nodiscard]] HWY_INLINE float magnitude(float a) { return std::abs(a); }
 /// `a`, its sign flipped where `by` is negative (-0 is).
 [[nodiscard]] HWY_INLINE float flip_sign(float a, float by) {
@@ -78,6 +84,43 @@ template <class Real>
     const Real x = magnitude(v[0]), y = magnitude(v[1]), z = magnitude(v[2]);
     if (x >= y && x >= z) return {0};
     return {y >= z ? 1 : 2};
+}
+
+// The next two are for scalars; lanes-inl.hpp has them for lanes. Numbers of up to 24 bits whose squares are
+// in binary64's range multiply there without rounding.
+
+/// x1 y2 - y1 x2, rounded once.
+template <class Real>
+[[nodiscard]] Real edge_function_in_double(const Real& x1, const Real& y1, const Real& x2, const Real& y2) {
+    return static_cast<Real>(static_cast<double>(x1) * static_cast<double>(y2) -
+                             static_cast<double>(y1) * static_cast<double>(x2));
+}
+/// The same; its sign bit is the exact sign, and that of an exact zero is the sign for an origin moved by
+/// (e, e^2), e infinitely small and positive. Swapping the points swaps the sign, unless they are the same.
+template <class Real>
+[[nodiscard]] Real owned_edge_function(const Real& x1, const Real& y1, const Real& x2, const Real& y2) {
+    const Real zero(0.0F);
+    const double exact =
+        static_cast<double>(x1) * static_cast<double>(y2) - static_cast<double>(y1) * static_cast<double>(x2);
+    if (exact < 0 || exact > 0) return static_cast<Real>(exact);
+    return y1 < y2 || (y1 == y2 && x1 > x2) ? -zero : zero;
+}
+
+/// Whether a ray may hit the triangle at all: its corners are finite and not on one line, without rounding.
+/// Decided for binary32; any other Real is taken to be able.
+template <class Real>
+[[nodiscard]] bool can_be_hit(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
+    if constexpr (std::is_same_v<Real, float>) {
+        const Vec3 p{a[0], a[1], a[2]}, q{b[0], b[1], b[2]}, r{c[0], c[1], c[2]};
+        return is_finite(p) && is_finite(q) && is_finite(r) && !is_collinear(p, q, r);
+    } else {
+        return true;
+    }
+}
+template <class Real>
+[[nodiscard]] Vector<Real> nowhere() {
+    const Real nan(std::numeric_limits<float>::quiet_NaN());
+    return {{nan, nan, nan}};
 }
 
 }  // namespace rtu::model::methods::RTU_TARGET

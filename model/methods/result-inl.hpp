@@ -21,12 +21,24 @@ struct Interval {
     Real t_min, t_max;
 };
 
+/// Whether t lies in the interval.
+template <class Real>
+[[nodiscard]] HWY_INLINE MaskOf<Real> is_within(const Interval<Real>& interval, const Real& t) {
+    return both(t > interval.t_min, t < interval.t_max);
+}
+/// Whether distance / size does, without dividing; `size` is not negative, and at 0 nothing is within.
+template <class Real>
+[[nodiscard]] HWY_INLINE MaskOf<Real> is_within(const Interval<Real>& interval, const Real& distance,
+                                                const Real& size) {
+    return both(distance > interval.t_min * size, distance < interval.t_max * size);
+}
+
 /// Where is_hit is set, the ray hits the triangle; t, u and v are to be divided by det (EarlyDivision: they
-/// are). Elsewhere the other members have no meaning.
+/// are; TwoDivisions: u and v by weight_sum). Elsewhere the other members have no meaning.
 template <class Real>
 struct Candidate {
     MaskOf<Real> is_hit;
-    Real t{0.0F}, u{0.0F}, v{0.0F}, det{0.0F};
+    Real t{0.0F}, u{0.0F}, v{0.0F}, det{0.0F}, weight_sum{0.0F};
 };
 
 template <class Real>
@@ -51,6 +63,28 @@ struct EarlyDivision {
     template <class Real>
     [[nodiscard]] static HWY_INLINE Distances<Real> finish(const Candidate<Real>& c) {
         return {c.t, c.u, c.v};
+    }
+};
+
+/// Where the plane gives t and the edges give u and v.
+struct TwoDivisions {
+    template <class Real>
+    [[nodiscard]] static HWY_INLINE Distances<Real> finish(const Candidate<Real>& c) {
+        const Real inverse = Real(1.0F) / c.weight_sum;
+        return {c.t / c.det, c.u * inverse, c.v * inverse};
+    }
+};
+
+/// A method that keeps nothing of a ray but the ray.
+struct RayAsGiven {
+    template <class Real>
+    struct RayData {
+        Vector<Real> origin, direction;
+    };
+    template <class Real>
+    [[nodiscard]] static RayData<Real> prepare(const Vector<Real>& origin, const Vector<Real>& direction,
+                                               Axis) {
+        return {origin, direction};
     }
 };
 

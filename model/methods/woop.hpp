@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include "model/methods/target.hpp"
 
 RTU_BEFORE_TARGET();
@@ -37,8 +39,8 @@ struct Woop : DeferredDivision {
     template <class Real>
     [[nodiscard]] static RayData<Real> prepare(const Vector<Real>& origin, const Vector<Real>& direction,
                                                Axis axis) {
-        const Real inverse = Real(1.0F) / pick<0>(axis, direction);
-        return {origin, pick<1>(axis, direction) * inverse, pick<2>(axis, direction) * inverse, inverse};
+        const Real d = pick<0>(axis, direction);
+        return {origin, pick<1>(axis, direction) / d, pick<2>(axis, direction) / d, Real(1.0F) / d};
     }
     template <class Real>
     [[nodiscard]] static Stored<Real> store(const Vector<Real>& a, const Vector<Real>& b,
@@ -63,22 +65,30 @@ struct Woop : DeferredDivision {
         return p.x * q.y - p.y * q.x;
     }
 
-    /// Decides from the edge functions opposite to p, q, r; u and v are the weights of q and r.
+    /// Edge functions; u, v, w are the weights of a triangle's second, third and first corner.
     template <class Real>
-    [[nodiscard]] static HWY_INLINE Candidate<Real> decide(const RayData<Real>& ray,
-                                                           const Interval<Real>& interval, Real of_p,
-                                                           Real of_q, Real of_r, const Sheared<Real>& p,
-                                                           const Sheared<Real>& q, const Sheared<Real>& r) {
-        const Real zero(0.0F);
-        const auto is_in = either(both(both(of_p >= zero, of_q >= zero), of_r >= zero),
-                                  both(both(of_p <= zero, of_q <= zero), of_r <= zero));
-        if (is_none(is_in)) return {is_in};
-        const Real det = of_p + of_q + of_r;
-        const Real t = (of_p * p.z + of_q * q.z + of_r * r.z) * ray.scale_z;
+    struct Weights {
+        Real u, v, w;
+        [[nodiscard]] HWY_INLINE MaskOf<Real> agree() const {
+            const Real zero(0.0F);
+            return either(smaller(smaller(u, v), w) >= zero, larger(larger(u, v), w) <= zero);
+        }
+    };
+
+    /// The corners are in the order of the weights w, u, v.
+    template <class Real>
+    [[nodiscard]] static HWY_INLINE Candidate<Real> at_depth(const RayData<Real>& ray,
+                                                             const Interval<Real>& interval,
+                                                             MaskOf<Real> is_in, const Weights<Real>& by,
+                                                             const Sheared<Real>& p, const Sheared<Real>& q,
+                                                             const Sheared<Real>& r) {
+        if constexpr (std::is_same_v<MaskOf<Real>, bool>)  // one depth for a pair, unless it is folded
+            if (!is_in) return {is_in};
+        const Real det = by.w + by.u + by.v;
+        const Real t = (by.w * p.z + by.u * q.z + by.v * r.z) * ray.scale_z;
         const Real size = magnitude(det), distance = flip_sign(t, det);
-        const auto is_hit =
-            both(is_in, both(distance > interval.t_min * size, distance < interval.t_max * size));
-        return {is_hit, t, of_q, of_r, det};
+        const auto is_hit = both(is_in, is_within(interval, distance, size));
+        return {is_hit, t, by.u, by.v, det};
     }
 
     template <class Real, class AnyAxis>
@@ -88,7 +98,10 @@ struct Woop : DeferredDivision {
         const Sheared<Real> a = shear(ray, triangle.a, axis);
         const Sheared<Real> b = shear(ray, triangle.b, axis);
         const Sheared<Real> c = shear(ray, triangle.c, axis);
-        return decide(ray, interval, edge_function(b, c), edge_function(c, a), edge_function(a, b), a, b, c);
+        const Weights<Real> by{edge_function(c, a), edge_function(a, b), edge_function(b, c)};
+        const auto is_in = by.agree();
+        if (is_none(is_in)) return {is_in};
+        return at_depth(ray, interval, is_in, by, a, b, c);
     }
 
     template <class Real, class AnyAxis>
@@ -101,8 +114,12 @@ struct Woop : DeferredDivision {
         const Sheared<Real> c = shear(ray, pair.c, axis);
         const Sheared<Real> d = shear(ray, pair.d, axis);
         const Real common = edge_function(c, a);
-        return {decide(ray, interval, edge_function(b, c), common, edge_function(a, b), a, b, c),
-                decide(ray, interval, edge_function(c, d), edge_function(d, a), -common, a, c, d)};
+        const Weights<Real> first{common, edge_function(a, b), edge_function(b, c)};
+        const Weights<Real> second{edge_function(d, a), -common, edge_function(c, d)};
+        const auto is_in_first = first.agree(), is_in_second = second.agree();
+        if (is_none(either(is_in_first, is_in_second))) return {{is_in_first}, {is_in_second}};
+        return {at_depth(ray, interval, is_in_first, first, a, b, c),
+                at_depth(ray, interval, is_in_second, second, a, c, d)};
     }
 };
 
