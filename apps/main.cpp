@@ -10,12 +10,14 @@
 #include <systemc>
 #include <vector>
 
+#include "apps/chart_command.hpp"
 #include "apps/config_command.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/methods_command.hpp"
 #include "apps/pairing_command.hpp"
 #include "apps/precision_command.hpp"
 #include "apps/run_command.hpp"
+#include "apps/stability_command.hpp"
 #include "apps/standard_output.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
@@ -35,17 +37,20 @@ constexpr const char* footer =
     "  rtusim run --help                       all options of a run\n"
     "  rtusim pairing bunny.glb                what triangle pairing does to the hardware\n"
     "  rtusim methods                          how fast each ray-triangle test is on this host\n"
+    "  rtusim stability                        where ray-triangle methods fail, against exact arithmetic\n"
     "  rtusim precision bunny.glb              the cheapest test and number format for its rays\n"
+    "  rtusim chart --html methods.html        the studies of ray-triangle tests as pictures\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (!app.get_subcommands().empty()) return error.what();
     const std::vector<std::string> rest = app.remaining();
-    return rest.empty()
-               ? "expected a command, run, pairing, methods, precision or config"
-               : fmt::format("expected a command, run, pairing, methods, precision or config, got '{}'",
-                             rest.front());
+    return rest.empty() ? "expected a command, run, pairing, methods, stability, precision, chart or config"
+                        : fmt::format(
+                              "expected a command, run, pairing, methods, stability, precision, chart or "
+                              "config, got '{}'",
+                              rest.front());
 }
 
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -84,7 +89,9 @@ int run_cli(int argc, char** argv) {
     add_run_command(app, command);
     add_pairing_command(app, command);
     add_methods_command(app, command);
+    add_stability_command(app, command);
     add_precision_command(app, command);
+    add_chart_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

@@ -31,11 +31,27 @@ void copy_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, con
     std::memcpy(target, items.data(), items.size() * sizeof(T));
 }
 
+// A query's context with the place for its hits; Embree hands it to the filter as the first member's address.
+struct Collection {
+    RTCIntersectContext context;
+    std::vector<model::Hit>* hits;
+};
+
+void collect(const RTCFilterFunctionNArguments* arguments) {
+    if (arguments->valid[0] != -1) return;
+    arguments->valid[0] = 0;  // refused: look for more
+    const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
+    const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+    reinterpret_cast<const Collection*>(arguments->context)
+        ->hits->push_back({ray.tfar, hit.u, hit.v, hit.primID});
+}
+
 }  // namespace
 
-EmbreeOracle::EmbreeOracle(const model::TriangleMesh& mesh)
+EmbreeOracle::EmbreeOracle(const model::TriangleMesh& mesh, EmbreeMode mode)
     : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    const RTCSceneFlags robust = mode == EmbreeMode::Robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(scene_, RTCSceneFlags(robust | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions);
     copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
@@ -48,6 +64,19 @@ EmbreeOracle::EmbreeOracle(const model::TriangleMesh& mesh)
 EmbreeOracle::~EmbreeOracle() {
     rtcReleaseScene(scene_);
     rtcReleaseDevice(device_);
+}
+
+std::vector<model::Hit> EmbreeOracle::all_hits(const model::Ray& ray) const {
+    std::vector<model::Hit> hits;
+    Collection collection{};
+    rtcInitIntersectContext(&collection.context);
+    collection.context.filter = collect;
+    collection.hits = &hits;
+    RTCRayHit query{};
+    query.ray = to_embree(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &collection.context, &query);
+    return hits;
 }
 
 std::optional<model::Hit> EmbreeOracle::trace(const model::Ray& ray, model::RayKind kind) const {

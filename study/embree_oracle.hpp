@@ -1,7 +1,8 @@
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "model/mesh.hpp"
 #include "model/ray.hpp"
@@ -11,11 +12,13 @@ struct RTCDeviceTy;
 
 namespace rtu::study {
 
-/// An independent opinion on every hit: Embree in robust mode on the same triangles. Safe to ask from several
-/// threads.
+/// Embree's default triangle test, or that of RTC_SCENE_FLAG_ROBUST.
+enum class EmbreeMode : std::uint8_t { Default, Robust };
+
+/// An independent opinion on every hit: Embree on the same triangles. Safe to ask from several threads.
 class EmbreeOracle {
   public:
-    explicit EmbreeOracle(const model::TriangleMesh& mesh);
+    explicit EmbreeOracle(const model::TriangleMesh& mesh, EmbreeMode mode = EmbreeMode::Robust);
     ~EmbreeOracle();
     EmbreeOracle(const EmbreeOracle&) = delete;
     EmbreeOracle& operator=(const EmbreeOracle&) = delete;
@@ -23,6 +26,10 @@ class EmbreeOracle {
     /// The nearest hit, or for an any-hit ray some hit; nothing when the ray meets no triangle.
     /// Of an any-hit ray only whether there is a hit is meaningful.
     [[nodiscard]] std::optional<model::Hit> trace(const model::Ray& ray, model::RayKind kind) const;
+
+    /// Every hit that Embree finds in the ray's interval, in no order: each is refused by a filter, so that
+    /// the search goes on.
+    [[nodiscard]] std::vector<model::Hit> all_hits(const model::Ray& ray) const;
 
   private:
     RTCDeviceTy* device_;

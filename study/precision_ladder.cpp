@@ -1,7 +1,6 @@
 #include "study/precision_ladder.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "model/methods/emulated.hpp"
 #include "model/methods/exact.hpp"
 #include "model/methods/quantised_filter.hpp"
+#include "model/parallel.hpp"
 #include "study/precision_area.hpp"
 #include "study/precision_operations.hpp"
 #include "study/scene_steps.hpp"
@@ -211,7 +211,7 @@ std::vector<PrecisionRow> precision_rows(const std::string& scene, const Precisi
     const std::vector<EmulatedMethod> methods = chosen_methods(options);
     const Reference reference = reference_of(rays.sampled);
     std::vector<PrecisionRow> rows((methods.size() + 1) * formats.size());
-    tbb::parallel_for(std::size_t(0), formats.size(), [&](std::size_t f) {
+    const auto judge_format = [&](std::size_t f) {
         const NumberFormat format = formats[f];
         const Test exact = exact_test(format);
         const std::vector<std::uint32_t> exact_hits = exact_hits_of(rays.aimed, exact);
@@ -229,6 +229,9 @@ std::vector<PrecisionRow> precision_rows(const std::string& scene, const Precisi
             judge_aimed(rays.aimed, exact_hits, test, row);
             row.is_enough = upper_rate_per_million(row.wrong(), row.rays) <= options.wrong_per_million;
         }
+    };
+    model::for_each_range<std::size_t>(formats.size(), 1, [&](const auto& range) {
+        for (std::size_t f = range.begin(); f != range.end(); ++f) judge_format(f);
     });
     return rows;
 }

@@ -68,6 +68,41 @@ TestOperations counted_test() {
     return counted;
 }
 
+// Two triangles of which the ray hits the one on its front and the other on its back: a folded pair.
+template <class M>
+void add_pair(std::vector<PairOperations>& all) {
+    if constexpr (requires { M::has_pair; }) {
+        if constexpr (M::has_pair) {
+            using model::methods::AxisOwner;
+            const Vector a = vector(-1, -1, 0.1F), b = vector(1, -1, 0.2F), c = vector(0, 1, 0.3F),
+                         d = vector(1, -0.9F, 0.25F);
+            const Vector origin = vector(0.1F, 0.2F, 3), direction = vector(0.01F, 0.02F, -1);
+            const methods::Axis axis = axis_of_ray(M::info, direction);
+            const auto kept = M::prepare(origin, direction, axis);
+            const auto stored = M::store_pair(a, b, c, d, axis);
+            const methods::Interval<Counting> interval{Counting(0.0F), Counting(9.0F)};
+            counted = {};
+            const auto candidates = M::test_pair(kept, interval, stored, axis);
+            RTU_CHECK(candidates.first.is_hit && candidates.second.is_hit, "{} misses", M::info.name);
+            static_cast<void>(M::finish(candidates.first));
+            static_cast<void>(M::finish(candidates.second));
+            const TestOperations pair = counted, one = counted_test<M>();
+            all.push_back({std::string(M::info.name),
+                           std::string(M::info.title),
+                           one,
+                           {2 * one.mul, 2 * one.add, 2 * one.div},
+                           pair});
+        }
+    }
+}
+
+template <class... Methods>
+std::vector<PairOperations> all_pairs(methods::MethodList<Methods...>) {
+    std::vector<PairOperations> all;
+    (add_pair<Methods>(all), ...);
+    return all;
+}
+
 template <class... Methods>
 std::map<std::string, TestOperations, std::less<>> all_counts(methods::MethodList<Methods...>) {
     return {{std::string(Methods::info.name), counted_test<Methods>()}...};
@@ -81,5 +116,7 @@ TestOperations operations_of(std::string_view method) {
     RTU_CHECK(found != counts.end(), "no method {}", method);
     return found->second;
 }
+
+std::vector<PairOperations> pair_operations() { return all_pairs(methods::AllMethods()); }
 
 }  // namespace rtu::study

@@ -1,0 +1,171 @@
+#include "apps/stability_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/global_control.h>
+
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/exit_code.hpp"
+#include "apps/machine_options.hpp"
+#include "apps/option_values.hpp"
+#include "apps/progress.hpp"
+#include "apps/standard_output.hpp"
+#include "model/error.hpp"
+#include "study/output_file.hpp"
+#include "study/stability_run.hpp"
+
+namespace rtu::apps {
+namespace {
+
+constexpr const char* description =
+    "hold ray-triangle methods, the machine and Embree against exact arithmetic where methods fail:\n"
+    "leaks, double hits, wrong decisions, and errors of t, u and v";
+
+struct StabilityArguments {
+    std::string methods, cases;
+    std::string rays = "2000";
+    std::string seed = "1";
+    std::string scene;
+    unsigned threads = 0;  ///< 0: all cores
+    std::string json, csv;
+};
+
+std::string footer() {
+    std::string text = "Cases (--case NAME,...; docs/stability.md says what each is):\n";
+    for (const study::StabilityCase& one : study::stability_cases()) {
+        text += fmt::format("  {:>2} {:<18}{}: {}\n", one.number, one.name, one.title, one.check);
+    }
+    return text +
+           fmt::format("\nMethods (--method NAME,...):\n  {}\n", fmt::join(study::subject_names(), ", ")) +
+           "\nExamples:\n"
+           "  rtusim stability                                   all methods, all cases\n"
+           "  rtusim stability --case shared_vertex              one case by its parameters\n"
+           "  rtusim stability --method woop,woop_top_left,rtu   some methods\n"
+           "  rtusim stability --scene a.glb --rays 100000       at a scene's own triangles\n"
+           "  rtusim stability --json - | jq '.rows[] | select(.leaks > 0) | .method'\n";
+}
+
+std::vector<std::string> names(const std::string& text) {
+    if (text.empty()) return {};
+    const auto parts = split(text);
+    return {parts.begin(), parts.end()};
+}
+
+std::uint64_t parse_rays(const std::string& text) {
+    std::uint64_t rays = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rays);
+    if (error != std::errc{} || end != text.data() + text.size() || rays < 1 ||
+        rays > study::max_stability_rays) {
+        throw Error("--rays: expected a number from 1 to {}, got '{}'", study::max_stability_rays, text);
+    }
+    return rays;
+}
+
+struct StabilityPlan {
+    study::StabilityOptions options;
+    bool is_json_to_stdout = false;
+    std::optional<std::filesystem::path> json, csv;
+};
+
+StabilityPlan make_plan(const StabilityArguments& arguments) {
+    StabilityPlan plan;
+    plan.options.methods = names(arguments.methods);
+    plan.options.cases = names(arguments.cases);
+    plan.options.rays = parse_rays(arguments.rays);
+    plan.options.seed = parse_seed(arguments.seed);
+    std::vector<std::filesystem::path> inputs;
+    if (!arguments.scene.empty()) {
+        plan.options.scene = parse_scenes({arguments.scene}).front();
+        inputs.emplace_back(arguments.scene);
+    }
+    study::check_stability_options(plan.options);
+    plan.is_json_to_stdout = arguments.json == "-";
+    if (!plan.is_json_to_stdout) plan.json = optional_path(arguments.json);
+    plan.csv = optional_path(arguments.csv);
+    for (const auto& output : {plan.json, plan.csv}) {
+        if (output) check_output(*output, inputs);
+    }
+    if (plan.json && plan.csv && is_same_file(*plan.json, *plan.csv)) {
+        throw Error("{}: is named by two options", plan.csv->string());
+    }
+    return plan;
+}
+
+study::StabilityReport run(StabilityPlan& plan) {
+    Progress progress;
+    plan.options.progress = [&progress](std::string_view scene, std::string_view phase) {
+        progress.show(scene, phase);
+    };
+    return study::run_stability(plan.options);
+}
+
+int run_stability_command(const StabilityArguments& arguments) {
+    study::remove_temporaries_on_interrupt();
+    StabilityPlan plan = make_plan(arguments);
+    std::optional<tbb::global_control> limit;
+    if (arguments.threads > 0) {
+        limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
+    }
+    const study::StabilityReport report = run(plan);
+    std::vector<study::OutputFile> files;
+    if (plan.json) files.push_back({*plan.json, study::stability_json(report)});
+    if (plan.csv) files.push_back({*plan.csv, study::stability_csv(report)});
+    study::write_files(files);
+    print_all(plan.is_json_to_stdout ? study::stability_json(report) : study::stability_text(report));
+    return exit_done;
+}
+
+void add_options(CLI::App& stability, StabilityArguments& arguments) {
+    stability.add_option("--method", arguments.methods, "only these methods, see below")
+        ->type_name("LIST")
+        ->check(is_not_empty());
+    stability.add_option("--case", arguments.cases, "only these cases, see below")
+        ->type_name("LIST")
+        ->check(is_not_empty());
+    stability
+        .add_option("--rays", arguments.rays,
+                    "rays a case, parameter and aim; where each is tested against more than\n"
+                    "256 triangles, fewer in proportion")
+        ->type_name("N")
+        ->capture_default_str();
+    stability.add_option("--seed", arguments.seed, "of the random numbers")
+        ->type_name("N")
+        ->capture_default_str();
+    stability
+        .add_option("--scene", arguments.scene,
+                    "a glTF file: rays at its triangles, instead of all cases or besides those of --case")
+        ->type_name("FILE")
+        ->check(is_not_empty());
+    stability
+        .add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    stability
+        .add_option("--json", arguments.json,
+                    "write the rows as JSON; - is standard output, and no text then")
+        ->type_name("FILE|-")
+        ->check(is_not_empty());
+    stability.add_option("--csv", arguments.csv, "write the rows as CSV")
+        ->type_name("FILE")
+        ->check(is_not_empty());
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app, std::function<int()>& command) {
+    auto arguments = std::make_shared<StabilityArguments>();
+    CLI::App* stability = app.add_subcommand("stability", description);
+    stability->footer(footer());
+    stability->get_formatter()->column_width(34);
+    add_options(*stability, *arguments);
+    stability->callback(
+        [arguments, &command] { command = [arguments] { return run_stability_command(*arguments); }; });
+}
+
+}  // namespace rtu::apps
