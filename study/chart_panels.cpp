@@ -11,7 +11,7 @@ namespace {
 
 using namespace gnuplot;
 
-constexpr int panel_width = 400, key_width = 220, left_width = 80, gap = 80;
+constexpr int panel_width = 400, key_width = 290, left_width = 95, gap = 80;
 
 PixelSize size_of(const ChartPanels& panels) {
     const int count = int(panels.panels.size());
@@ -33,7 +33,8 @@ std::string legend(const Chart& panel, PixelSize size) {
     return fmt::format(
                "set lmargin at screen {:.4f}\nset rmargin at screen 0.99\nset tmargin at screen 0.9\n"
                "set bmargin at screen 0.02\nunset title\nunset border\nunset tics\nunset xlabel\nunset "
-               "ylabel\nset key inside left top vertical Left reverse samplen 1.5\n",
+               "ylabel\nunset logscale\nset xrange [0:1]\nset yrange [0:1]\nset key inside left top vertical "
+               "Left reverse samplen 3\n",
                1 - double(key_width - 10) / size.width) +
            legend_plot(panel);
 }

@@ -67,17 +67,15 @@ void tell(const ChartOptions& options, std::string_view what, std::string_view p
     if (options.progress) options.progress(fmt::format("{}: {}", what, phase));
 }
 
-MethodsReport measure_speeds(const ChartOptions& options) {
-    MethodsOptions methods;
-    if (is_wanted(options, "speed")) methods.forms.push_back(Form::Triangles);
-    if (is_wanted(options, "widths")) {
-        methods.forms.push_back(Form::Single);
-        methods.forms.push_back(Form::Rays);
-    }
-    methods.repeats = options.repeats;
-    methods.seed = options.seed;
-    methods.progress = [&](std::string_view phase) { tell(options, "speed", phase); };
-    return run_methods_study(methods);
+MethodsReport measure_speeds(const ChartOptions& options, std::vector<Form> forms,
+                             std::vector<std::string> methods) {
+    MethodsOptions speeds;
+    speeds.forms = std::move(forms);
+    speeds.methods = std::move(methods);
+    speeds.repeats = options.repeats;
+    speeds.seed = options.seed;
+    speeds.progress = [&](std::string_view phase) { tell(options, "speed", phase); };
+    return run_methods_study(speeds);
 }
 
 StabilityReport measure_stability(const ChartOptions& options) {
@@ -110,12 +108,12 @@ PrecisionReport measure_precision(const ChartOptions& options) {
 }
 
 AnyChart make_chart(std::string_view name, const ChartData& data) {
-    if (name == "speed") return speed_chart(*data.speeds, *data.stability);
+    if (name == "speed") return speed_chart(*data.leaf_speeds, *data.stability);
     if (name == "offset") return offset_chart(data.offsets);
     if (name == "cases") return failure_chart(*data.stability);
     if (name == "errors") return error_chart(*data.stability);
     if (name == "operations") return operation_chart(pair_operations());
-    if (name == "widths") return width_chart(*data.speeds);
+    if (name == "widths") return width_chart(*data.packet_speeds);
     if (name == "parity") return parity_chart(data.parity, data.parity_size, data.parity_size);
     RTU_CHECK(name == "precision", "no chart {}", name);
     return precision_chart(*data.precision);
@@ -140,7 +138,11 @@ void check_chart_names(const std::vector<std::string>& names) {
 ChartData measure_charts(const ChartOptions& options) {
     ChartData data;
     const auto wants = [&](std::string_view name) { return is_wanted(options, name); };
-    if (wants("speed") || wants("widths")) data.speeds = measure_speeds(options);
+    if (wants("speed")) data.leaf_speeds = measure_speeds(options, {Form::Triangles}, {});
+    if (wants("widths")) {
+        data.packet_speeds = measure_speeds(options, {Form::Single, Form::Rays},
+                                            {width_chart_methods.begin(), width_chart_methods.end()});
+    }
     if (wants("speed") || wants("cases") || wants("errors")) data.stability = measure_stability(options);
     if (wants("precision")) data.precision = measure_precision(options);
     if (wants("offset")) {

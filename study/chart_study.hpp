@@ -27,7 +27,7 @@ struct ChartInfo {
 
 struct ChartOptions {
     std::vector<std::string> names;  ///< of known_charts(); empty: all
-    std::uint32_t rays = 1000;       ///< a setting, of all studies
+    std::uint32_t rays = 500;        ///< a setting, of all studies
     std::uint32_t repeats = 3;       ///< of the timings
     SceneSource scene;               ///< for the precision ladder
     std::optional<std::filesystem::path> camera_file;
@@ -37,7 +37,7 @@ struct ChartOptions {
 
 /// What the chosen charts are made of; parts that none of them needs are left out.
 struct ChartData {
-    std::optional<MethodsReport> speeds;
+    std::optional<MethodsReport> leaf_speeds, packet_speeds;
     std::optional<StabilityReport> stability;
     std::optional<PrecisionReport> precision;
     std::vector<OffsetRow> offsets;

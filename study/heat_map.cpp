@@ -13,7 +13,7 @@ namespace {
 
 using namespace gnuplot;
 
-constexpr int cell_width = 58, cell_height = 26, scale_width = 120, character_width = 9;
+constexpr int cell_width = 58, cell_height = 26, scale_width = 140, character_width = 9;
 
 int longest(const std::vector<std::string>& names) {
     std::size_t characters = 0;
@@ -61,7 +61,7 @@ std::string colour_scale(const HeatMap& map, double most, const Layout& layout) 
     const int last = std::max(int(std::ceil(std::log10(most))), int(std::floor(std::log10(map.floor))) + 1);
     return fmt::format(
         "set palette defined (0 '#fff3b0', 0.4 '#f5a742', 0.75 '#d1391f', 1 '#6e0b14')\n{}"
-        "set cblabel {}\n"
+        "set cblabel {} offset 1.5,0\n"
         "set colorbox user origin screen {:.4f}, screen {:.4f} size screen {:.4f}, screen {:.4f}\n",
         decimal_axis("cb", map.floor, std::pow(10.0, last)), in_quotes(map.colour_label),
         layout.right + 18.0 / layout.size.width, layout.bottom, 14.0 / layout.size.width,

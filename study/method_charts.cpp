@@ -15,6 +15,16 @@ namespace {
 using model::methods::Form;
 
 std::string title_of_method(std::string_view name) {
+    struct Named {
+        std::string_view name, title;
+    };
+    static constexpr std::array others = std::to_array<Named>({{"rtu", "RTU, pair test"},
+                                                               {"rtu_traversal", "RTU, traversal"},
+                                                               {"embree", "Embree"},
+                                                               {"embree_robust", "Embree, robust"}});
+    for (const Named& other : others) {
+        if (other.name == name) return std::string(other.title);
+    }
     const model::methods::Method* method = model::methods::find_method(name);
     return std::string(method == nullptr ? name : method->info.title);
 }
@@ -38,6 +48,12 @@ const StabilityRow* random_rays(const StabilityReport& report, std::string_view 
                row.parameter == offset && row.aim == "random";
     });
     return found == report.rows.end() ? nullptr : &*found;
+}
+
+// Whole scenes and what traverses them are asked for hits only.
+bool has_errors(const StabilityReport& report, std::string_view method) {
+    const StabilityRow* row = random_rays(report, method, "0");
+    return row != nullptr && row->tally.t_ulp.count() > 0;
 }
 
 std::vector<std::string> methods_of(const StabilityReport& report) {
@@ -88,7 +104,6 @@ ScatterChart speed_chart(const MethodsReport& speeds, const StabilityReport& sta
     chart.x_label = "99 % of hits: error of t at most (ulp)";
     chart.y_label = "million tests a second";
     chart.colour_label = "leaks per million rays at edges and vertices";
-    chart.is_x_logarithmic = true;
     for (const MethodsRow& row : speeds.rows) {
         const bool is_wide = row.kernel.form == Form::Triangles && row.kernel.width == 8;
         if (!is_wide || row.workload != "random") continue;
@@ -99,6 +114,8 @@ ScatterChart speed_chart(const MethodsReport& speeds, const StabilityReport& sta
         chart.points.push_back({std::string(row.kernel.method.title), std::max(*p99, 0.5),
                                 row.tests_per_second / 1e6, leak_rate(stability, row.kernel.method.name)});
     }
+    const auto [least, most] = std::ranges::minmax_element(chart.points, {}, &ScatterPoint::x);
+    chart.is_x_logarithmic = !chart.points.empty() && most->x > 8 * least->x;
     return chart;
 }
 
@@ -139,7 +156,9 @@ HeatMap failure_chart(const StabilityReport& stability) {
     map.rows = methods_of(stability);
     std::vector<std::size_t> cases;
     for (std::size_t i = 0; i < stability.cases.size(); ++i) {
-        const auto is_of_case = [i](const StabilityRow& row) { return row.case_index == i; };
+        const auto is_of_case = [i](const StabilityRow& row) {
+            return row.case_index == i && is_plain(row) && row.tally.rays > 0;
+        };
         if (std::ranges::any_of(stability.rows, is_of_case)) cases.push_back(i);
     }
     double least = 1e6;
@@ -181,6 +200,7 @@ ChartPanels error_chart(const StabilityReport& stability) {
         panel.x_base = 10;
         panel.has_points = false;
         for (const std::string& method : methods_of(stability)) {
+            if (!has_errors(stability, method)) continue;
             const StabilityRow* row = random_rays(stability, method, place.offset);
             ChartSeries line = series(title_of_method(method), panel.series.size());
             for (int percent = 1; percent <= 100 && row != nullptr; ++percent) {
@@ -220,8 +240,7 @@ Chart width_chart(const MethodsReport& speeds) {
     chart.is_x_logarithmic = true;
     chart.has_zero_line = true;
     std::size_t colour = 0;
-    for (const char* method :
-         {"wald", "shevtsov", "havel_herout", "moller_trumbore", "woop", "woop_top_left"}) {
+    for (const std::string_view method : width_chart_methods) {
         ChartSeries line = series(title_of_method(method), colour++);
         for (const MethodsRow& row : speeds.rows) {
             const bool is_here = row.kernel.method.name == method && row.workload == "random";

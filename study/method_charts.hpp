@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/any_chart.hpp"
@@ -44,6 +46,10 @@ struct ParityMap {
 
 /// Multiplications and additions of one triangle, two, and a pair.
 [[nodiscard]] Chart operation_chart(std::span<const PairOperations> operations);
+
+/// The methods of width_chart(): those with published speeds, and others to compare.
+inline constexpr std::array<std::string_view, 6> width_chart_methods{
+    "wald", "shevtsov", "havel_herout", "moller_trumbore", "woop", "woop_top_left"};
 
 /// Speed of packets against their width, with the published ones.
 [[nodiscard]] Chart width_chart(const MethodsReport& speeds);

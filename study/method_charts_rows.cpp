@@ -17,13 +17,19 @@ using model::methods::Method;
 constexpr std::uint32_t offset_purpose = 0x6f66;
 constexpr float ball_radius = 16;
 
-// Hits of a ray on a closed mesh, none or even in number being worse than odd.
+// Hits of a ray on a closed mesh; a one-sided method is asked for both windings.
 std::uint32_t hits_of(const Method& method, const Ray& ray, std::span<const Corners> triangles) {
     std::uint32_t hits = 0;
-    for (const Corners& triangle : triangles) hits += method.test(ray, triangle) ? 1 : 0;
+    for (const Corners& triangle : triangles) {
+        const auto& [a, b, c] = triangle;
+        const bool is_hit =
+            method.test(ray, triangle) || (method.info.is_one_sided && method.test(ray, {a, c, b}));
+        hits += is_hit ? 1 : 0;
+    }
     return hits;
 }
 
+// None is worse than an even number, and that is worse than an odd one.
 int badness(std::uint32_t hits) { return hits == 0 ? 2 : hits % 2 == 0 ? 1 : 0; }
 
 // The rays of a picture, and the pixel of each.

@@ -66,9 +66,12 @@ Reference reference_of(std::span<const RayTriangles> rays) {
 // A method in one format: the distance of a hit.
 using Test = std::function<std::optional<double>(const Ray&, const Corners&)>;
 
+// A one-sided method is asked for both windings.
 Test test_of(const EmulatedMethod& method, NumberFormat format) {
-    return [test = method.test, format](const Ray& ray, const Corners& triangle) -> std::optional<double> {
-        const auto hit = test(ray, triangle, format);
+    return [test = method.test, is_one_sided = method.info.is_one_sided, format](
+               const Ray& ray, const Corners& triangle) -> std::optional<double> {
+        auto hit = test(ray, triangle, format);
+        if (!hit && is_one_sided) hit = test(ray, {triangle[0], triangle[2], triangle[1]}, format);
         return hit ? std::optional(hit->t) : std::nullopt;
     };
 }

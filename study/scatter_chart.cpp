@@ -114,7 +114,7 @@ std::string colour_scale(const ScatterChart& chart) {
     const int last = int(std::ceil(std::log10(most)));
     return fmt::format(
         "set palette defined (0 '#0072b2', 0.25 '#56b4e9', 0.5 '#f0c040', 0.75 '#e07010', 1 '#a00000')\n"
-        "{}set cblabel {}\n"
+        "{}set cblabel {} offset 1.5,0\n"
         "set colorbox user origin screen 0.87, screen {:.4f} size screen 0.02, screen {:.4f}\n",
         decimal_axis_with_zero("cb", chart.colour_floor, chart.colour_floor, std::pow(10.0, last)),
         in_quotes(chart.colour_label), plot_bottom / size.height, (plot_top - plot_bottom) / size.height);
