@@ -11,7 +11,7 @@ namespace {
 
 using namespace gnuplot;
 
-constexpr int panel_width = 400, key_width = 290, left_width = 95, gap = 80;
+constexpr int panel_width = 400, key_width = 330, left_width = 95, gap = 80;
 
 PixelSize size_of(const ChartPanels& panels) {
     const int count = int(panels.panels.size());

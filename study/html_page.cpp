@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <utility>
 
 namespace rtu::study {
@@ -27,6 +28,7 @@ td { border-bottom: 1px solid var(--line); } tr.rule td { border-top: 2px solid 
 .left { text-align: left; }
 figure { margin: 1rem 0; break-inside: avoid; }
 figure svg { width: 100%; max-width: 760px; height: auto; color: var(--text); }
+figure.wide svg { max-width: none; }
 @media print { html { font-size: 11px; } body { max-width: none; } .scroll { overflow: visible; }
   table { font-size: .8rem; } th, td { padding: .1rem .3rem; } h2 { break-after: avoid; }
   tr { break-inside: avoid; } figure svg { max-width: 480px; } }
@@ -37,6 +39,17 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
         text.replace(at, from.size(), to);
     }
     return text;
+}
+
+// gnuplot says viewBox="0 0 WIDTH HEIGHT" in pixels.
+bool is_wide(std::string_view svg) {
+    constexpr std::string_view before = "viewBox=\"0 0 ";
+    const std::size_t at = svg.find(before);
+    if (at == std::string_view::npos) return false;
+    const std::string_view number = svg.substr(at + before.size());
+    int width = 0;
+    std::from_chars(number.data(), number.data() + number.size(), width);
+    return width > 960;
 }
 
 std::string_view alignment(const TextTable::Column& column) {
@@ -111,7 +124,7 @@ std::string html_figure(std::string_view svg, std::string_view name) {
                                fmt::format("{}{}-{}", before, name, id));
         }
     }
-    return fmt::format("<figure>{}</figure>\n", drawing);
+    return fmt::format("<figure{}>{}</figure>\n", is_wide(svg) ? " class=\"wide\"" : "", drawing);
 }
 
 std::string html_page(std::string_view title, std::string_view body) {
