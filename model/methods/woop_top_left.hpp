@@ -37,12 +37,16 @@ struct WoopTopLeft : Woop {
     template <class Real>
     [[nodiscard]] static Stored<Real> store(const Vector<Real>& a, const Vector<Real>& b,
                                             const Vector<Real>& c, Axis) {
-        return {a, b, can_be_hit(a, b, c) ? c : nowhere<Real>()};
+        if (!can_be_hit(a, b, c)) return {nowhere<Real>(), nowhere<Real>(), nowhere<Real>()};
+        return {a, b, c};
     }
     template <class Real>
     [[nodiscard]] static PairStored<Real> store_pair(const Vector<Real>& a, const Vector<Real>& b,
                                                      const Vector<Real>& c, const Vector<Real>& d, Axis) {
-        return {a, can_be_hit(a, b, c) ? b : nowhere<Real>(), c, can_be_hit(a, c, d) ? d : nowhere<Real>()};
+        PairStored<Real> stored{a, b, c, d};
+        if (!can_be_hit(a, b, c)) stored.b = nowhere<Real>();
+        if (!can_be_hit(a, c, d)) stored.d = nowhere<Real>();
+        return stored;
     }
 
     template <class Real>
