@@ -154,7 +154,7 @@ TEST(MethodKernels, TakeOneTriangleAndOneRay) {
 
 TEST(MethodKernels, ExistInEveryFormForEveryMethod) {
     for (const Method& method : all_methods()) {
-        if (method.info.name == "exact") continue;
+        if (method.info.name == "exact" || method.info.name == "havel_herout_sse4") continue;
         for (const Form form : {Form::Single, Form::Rays, Form::Triangles})
             EXPECT_TRUE(std::any_of(all_kernels().begin(), all_kernels().end(), [&](const Kernel& kernel) {
                 return kernel.method.name == method.info.name && kernel.form == form;
