@@ -34,6 +34,11 @@ using MaskOf = decltype(Real(0.0F) < Real(0.0F));
 }
 /// Whether the sign bits are equal.
 [[nodiscard]] HWY_INLINE bool has_same_sign(float a, float b) { return std::signbit(a) == std::signbit(b); }
+[[nodiscard]] HWY_INLINE bool has_same_sign(float a, float b, float c) {
+    const auto bits_a = std::bit_cast<std::uint32_t>(a), bits_b = std::bit_cast<std::uint32_t>(b),
+               bits_c = std::bit_cast<std::uint32_t>(c);
+    return (((bits_a ^ bits_b) | (bits_b ^ bits_c)) & 0x8000'0000U) == 0;  // one branch, not two
+}
 
 template <class Real>
 struct Vector {
