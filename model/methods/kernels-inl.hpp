@@ -128,20 +128,15 @@ template <std::size_t W>
 
 // Blocks of W triangles or pairs, a block's fields one after the other, then its axes if it has any. The last
 // block is filled up with copies of the last triangle.
-template <class Fields, std::size_t W>
-class Blocks {
-  public:
-    explicit Blocks(bool has_axes) : block_size_((field_count<Fields> + (has_axes ? 1 : 0)) * W) {}
-    [[nodiscard]] std::size_t size() const { return block_size_; }
-    void set(float* blocks, std::size_t index, const Fields& fields, Axis axis) const {
+template <class Fields, std::size_t W, bool HasAxes>
+struct Blocks {
+    static constexpr std::size_t size = (field_count<Fields> + (HasAxes ? 1 : 0)) * W;
+    static HWY_INLINE void set(float* blocks, std::size_t index, const Fields& fields, Axis axis) {
         const auto values = std::bit_cast<std::array<float, field_count<Fields>>>(fields);
-        float* lane = blocks + index / W * block_size_ + index % W;
+        float* lane = blocks + index / W * size + index % W;
         for (std::size_t i = 0; i < values.size(); ++i) lane[i * W] = values[i];
-        if (block_size_ > values.size() * W) lane[values.size() * W] = float(axis.index);
+        if constexpr (HasAxes) lane[values.size() * W] = float(axis.index);
     }
-
-  private:
-    std::size_t block_size_;
 };
 
 [[nodiscard]] inline std::size_t round_up(std::size_t count, std::size_t to) {
@@ -154,16 +149,16 @@ inline constexpr bool has_triangle_axis = M::info.axis_owner == AxisOwner::Trian
 template <class M, std::size_t W>
 void store_triangles(std::span<const Corners> triangles, PreparedTriangles& to) {
     using Fields = typename M::template Stored<float>;
-    const Blocks<Fields, W> blocks(has_triangle_axis<M> && W > 1);
+    using Layout = Blocks<Fields, W, has_triangle_axis<M> && (W > 1)>;
     const std::size_t filled = round_up(triangles.size(), W);
-    float* values = to.reserve(filled / W * blocks.size());
+    float* values = to.reserve(filled / W * Layout::size);
     to.count = triangles.size();
     if (W == 1) to.axes.resize(has_triangle_axis<M> ? filled : 0);
     for (std::size_t i = 0; i < filled; ++i) {
         const Corners& corners = triangles[std::min(i, triangles.size() - 1)];
         const auto a = vector_of(corners[0]), b = vector_of(corners[1]), c = vector_of(corners[2]);
         const Axis axis = axis_of_triangle(M::info, a, b, c);
-        blocks.set(values, i, M::store(a, b, c, axis), axis);
+        Layout::set(values, i, M::store(a, b, c, axis), axis);
         if (W == 1 && has_triangle_axis<M>) to.axes[i] = std::uint8_t(axis.index);
     }
 }
@@ -171,17 +166,17 @@ void store_triangles(std::span<const Corners> triangles, PreparedTriangles& to) 
 template <class M, std::size_t W>
 void store_pairs(std::span<const Corners> triangles, PreparedTriangles& to) {
     using Fields = typename M::template PairStored<float>;
-    const Blocks<Fields, W> blocks(false);
+    using Layout = Blocks<Fields, W, false>;
     const std::size_t count = triangles.size() / 2, filled = round_up(count, W);
-    float* values = to.reserve(filled / W * blocks.size());
+    float* values = to.reserve(filled / W * Layout::size);
     to.count = count;
     for (std::size_t i = 0; i < filled; ++i) {
         const Corners &first = triangles[2 * std::min(i, count - 1)],
                       &second = triangles[2 * std::min(i, count - 1) + 1];
-        blocks.set(values, i,
-                   M::store_pair(vector_of(first[0]), vector_of(first[1]), vector_of(first[2]),
-                                 vector_of(second[2]), Axis{}),
-                   Axis{});
+        Layout::set(values, i,
+                    M::store_pair(vector_of(first[0]), vector_of(first[1]), vector_of(first[2]),
+                                  vector_of(second[2]), Axis{}),
+                    Axis{});
     }
 }
 
@@ -224,7 +219,8 @@ template <class M, class Real, class RayAxis>
     constexpr std::size_t width = width_of<Real>;
     using Stored = typename M::template Stored<Real>;
     constexpr std::size_t fields = sizeof(Stored) / sizeof(Real);
-    constexpr std::size_t block_size = (fields + (has_triangle_axis<M> && width > 1 ? 1 : 0)) * width;
+    constexpr std::size_t block_size = Blocks < typename M::template Stored<float>, width,
+                          has_triangle_axis<M> && (width > 1) > ::size;
     Nearest<Real> nearest;
     Interval<Real> interval{Real(ray.t_min), Real(ray.t_max)};
     const float* block = triangles.values.get();

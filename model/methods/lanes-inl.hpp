@@ -54,6 +54,14 @@ template <std::size_t W>
     return hn::AllFalse(LanesTag<W>(), mask.bits);
 }
 template <std::size_t W>
+[[nodiscard]] HWY_INLINE bool is_all(LaneMask<W> mask) {
+    return hn::AllTrue(LanesTag<W>(), mask.bits);
+}
+template <std::size_t W>
+[[nodiscard]] HWY_INLINE LaneMask<W> inverted(LaneMask<W> mask) {
+    return {hn::Not(mask.bits)};
+}
+template <std::size_t W>
 [[nodiscard]] HWY_INLINE LaneMask<W> both(LaneMask<W> a, LaneMask<W> b) {
     return {hn::And(a.bits, b.bits)};
 }

@@ -19,6 +19,8 @@ template <class Real>
 using MaskOf = decltype(Real(0.0F) < Real(0.0F));
 
 [[nodiscard]] HWY_INLINE bool is_none(bool mask) { return !mask; }
+[[nodiscard]] HWY_INLINE bool is_all(bool mask) { return mask; }
+[[nodiscard]] HWY_INLINE bool inverted(bool mask) { return !mask; }
 [[nodiscard]] HWY_INLINE bool both(bool a, bool b) { return a && b; }
 [[nodiscard]] HWY_INLINE bool either(bool a, bool b) { return a || b; }
 [[nodiscard]] HWY_INLINE float select(bool mask, float yes, float no) { return mask ? yes : no; }
