@@ -214,18 +214,21 @@ ChartPanels error_chart(const StabilityReport& stability) {
     return panels;
 }
 
-Chart operation_chart(std::span<const PairOperations> operations) {
+Chart operation_chart(std::span<const model::methods::MethodCounts> counts) {
     Chart chart;
     chart.name = "methods_operations";
-    chart.title = "Operations when every triangle is hit";
+    chart.title = "Operations of triangles that are hit, before the last division";
     chart.y_label = "multiplications and additions";
-    chart.series = {series("one triangle", 4), series("two triangles", 5), series("pair", 2)};
-    for (const PairOperations& row : operations) {
+    chart.series = {series("one triangle", 4), series("two triangles", 5), series("pair, both hit", 2),
+                    series("pair, one hit", 0)};
+    for (const model::methods::MethodCounts& row : counts) {
+        if (!row.pair) continue;
         const auto group = double(chart.groups.size());
-        chart.groups.push_back(row.title);
+        chart.groups.push_back(title_of_method(row.name));
+        const auto& one = row.single.full;
         std::size_t i = 0;
-        for (const TestOperations* each : {&row.one, &row.two, &row.pair}) {
-            chart.series[i++].points.emplace_back(group, each->mul + each->add);
+        for (const auto& each : {one, one + one, row.pair->both_full, row.pair->one_full}) {
+            chart.series[i++].points.emplace_back(group, each.mul + each.add);
         }
     }
     return chart;

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "model/methods/operation_counts.hpp"
 #include "study/any_chart.hpp"
 #include "study/methods_report.hpp"
-#include "study/precision_operations.hpp"
 #include "study/precision_report.hpp"
 #include "study/stability_run.hpp"
 
@@ -44,8 +44,8 @@ struct ParityMap {
 /// Share of the hits whose error of t is no larger than so many units, near the origin and far from it.
 [[nodiscard]] ChartPanels error_chart(const StabilityReport& stability);
 
-/// Multiplications and additions of one triangle, two, and a pair.
-[[nodiscard]] Chart operation_chart(std::span<const PairOperations> operations);
+/// Multiplications and additions of one triangle, two, and a pair, of the methods that have a pair form.
+[[nodiscard]] Chart operation_chart(std::span<const model::methods::MethodCounts> counts);
 
 /// The methods of width_chart(): those with published speeds, and others to compare.
 inline constexpr std::array<std::string_view, 6> width_chart_methods{

@@ -9,13 +9,15 @@ double relative_significand(model::methods::NumberFormat format) { return (forma
 
 }  // namespace
 
-double area_proxy(const TestOperations& operations, model::methods::NumberFormat format) {
+double area_proxy(const model::methods::OperationCounts& operations, model::methods::NumberFormat format) {
     const double p = relative_significand(format);
     return (operations.mul + divider * operations.div) * p * p + adder * operations.add * p;
 }
 
 double area_proxy(const model::methods::FilterOperations& operations, model::methods::NumberFormat format) {
-    const TestOperations narrow{double(operations.narrow_mul), double(operations.narrow_add), 0};
+    model::methods::OperationCounts narrow;
+    narrow.mul = operations.narrow_mul;
+    narrow.add = operations.narrow_add;
     return adder * operations.wide_add + area_proxy(narrow, format);
 }
 

@@ -8,10 +8,10 @@
 
 #include "model/methods/emulated.hpp"
 #include "model/methods/exact.hpp"
+#include "model/methods/operation_counts.hpp"
 #include "model/methods/quantised_filter.hpp"
 #include "model/parallel.hpp"
 #include "study/precision_area.hpp"
-#include "study/precision_operations.hpp"
 #include "study/scene_steps.hpp"
 #include "study/version.hpp"
 
@@ -227,7 +227,7 @@ std::vector<PrecisionRow> precision_rows(const std::string& scene, const Precisi
             row.method = info.name;
             row.format = format;
             row.triangle_bits = info.stored_bytes / 4 * std::uint32_t(format.width_bits());
-            if (!is_exact) row.area = area_proxy(operations_of(info.name), format);
+            if (!is_exact) row.area = area_proxy(model::methods::counts_of(info.name)->single.hit, format);
             judge_sampled(rays.sampled, reference, test, options.t_tolerance, row);
             judge_aimed(rays.aimed, exact_hits, test, row);
             row.is_enough = upper_rate_per_million(row.wrong(), row.rays) <= options.wrong_per_million;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
 #include <vector>
 
 #include "model/methods/single_call-inl.hpp"
@@ -35,7 +36,12 @@ std::optional<EmulatedHit> test_emulated(const Ray& ray, const Corners& triangle
 
 template <class... Methods>
 std::vector<EmulatedMethod> emulations_of(RTU_TARGET::MethodList<Methods...>) {
-    return {EmulatedMethod{Methods::info, &test_emulated<Methods>}...};
+    std::vector<EmulatedMethod> all;
+    const auto add = [&]<class M>(std::type_identity<M>) {
+        if constexpr (!std::is_same_v<M, RTU_TARGET::WoopExact>) all.push_back({M::info, &test_emulated<M>});
+    };
+    (add(std::type_identity<Methods>()), ...);
+    return all;
 }
 
 float narrowed(NumberFormat format, float x) { return float(rounded(format, double(x))); }

@@ -43,6 +43,9 @@ struct Emulated {
     [[nodiscard]] friend bool has_same_sign(Emulated a, Emulated b) {
         return std::signbit(a.value) == std::signbit(b.value);
     }
+    [[nodiscard]] friend bool has_same_sign(Emulated a, Emulated b, Emulated c) {
+        return has_same_sign(a, b) && has_same_sign(b, c);
+    }
     [[nodiscard]] friend Emulated smaller(Emulated a, Emulated b) { return a < b ? a : b; }
     [[nodiscard]] friend Emulated larger(Emulated a, Emulated b) { return a > b ? a : b; }
     /// As for other scalars (numeric-inl.hpp): products of two are exact in binary64, what is returned is
@@ -82,7 +85,8 @@ struct EmulatedMethod {
     std::optional<EmulatedHit> (*test)(const Ray& ray, const Corners& triangle, NumberFormat format);
 };
 
-/// Those of all_methods() that are made of rounded arithmetic, in its order: all but `exact`.
+/// Those of all_methods() that are made of rounded arithmetic, in its order: all but `exact`, and `woop_exact`,
+/// whose error bounds are those of binary32.
 [[nodiscard]] std::span<const EmulatedMethod> emulated_methods();
 
 /// The ray and the triangle as a format of at most 23 bits of mantissa holds them, as binary32 again. What a

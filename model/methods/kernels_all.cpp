@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>  // before anything that is compiled for each instruction set
 
 #include "model/methods/exact.hpp"
+#include "model/methods/havel_herout_sse4.hpp"
 #include "model/methods/kernels-inl.hpp"
 
 RTU_BEFORE_TARGET();
@@ -25,6 +26,7 @@ const std::vector<Kernel>& all_kernels() {
     static const std::vector<Kernel> kernels = [] {
         std::vector<Kernel> all;
         HWY_DYNAMIC_DISPATCH(add)(all);
+        for (const Kernel& kernel : havel_herout_sse4_kernels()) all.push_back(kernel);
         for (const Kernel& kernel : exact_kernels()) all.push_back(kernel);
         return all;
     }();

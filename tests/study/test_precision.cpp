@@ -8,7 +8,6 @@
 #include "model/methods/emulated.hpp"
 #include "study/precision_area.hpp"
 #include "study/precision_ladder.hpp"
-#include "study/precision_operations.hpp"
 #include "study/precision_output.hpp"
 #include "study/precision_tables.hpp"
 #include "tests/model/meshes.hpp"
@@ -166,23 +165,10 @@ TEST(PrecisionReport, IsTheSameAsJson) {
 }
 
 TEST(AreaProxy, GrowsWithTheSquareForProductsAndLinearlyForSums) {
-    EXPECT_DOUBLE_EQ(area_proxy(TestOperations{10, 0, 0}, {8, 23}), 10);
-    EXPECT_DOUBLE_EQ(area_proxy(TestOperations{10, 0, 0}, {8, 11}), 2.5);
-    EXPECT_DOUBLE_EQ(area_proxy(TestOperations{0, 10, 0}, {8, 11}), 1.5);
-    EXPECT_DOUBLE_EQ(area_proxy(TestOperations{0, 0, 1}, {8, 23}), 8);
-}
-
-// The paper's operations of Wald's test: 11 multiplications, 12 additions and a division, when the triangle
-// is hit.
-TEST(Operations, AreThoseOfTheMethodsOwnCode) {
-    const TestOperations wald = operations_of("wald");
-    EXPECT_EQ(wald.mul, 11);
-    EXPECT_EQ(wald.add, 12);
-    EXPECT_EQ(wald.div, 1);
-    for (const auto& method : model::methods::emulated_methods()) {
-        EXPECT_GT(operations_of(method.info.name).mul, 5) << method.info.name;
-    }
-    EXPECT_THROW(static_cast<void>(operations_of("nobody")), std::logic_error);
+    EXPECT_DOUBLE_EQ(area_proxy(model::methods::OperationCounts{10, 0, 0, 5, 5, 0}, {8, 23}), 10);
+    EXPECT_DOUBLE_EQ(area_proxy(model::methods::OperationCounts{10, 0, 0, 5, 5, 0}, {8, 11}), 2.5);
+    EXPECT_DOUBLE_EQ(area_proxy(model::methods::OperationCounts{0, 10, 0, 0, 0, 9}, {8, 11}), 1.5);
+    EXPECT_DOUBLE_EQ(area_proxy(model::methods::OperationCounts{0, 0, 1, 0, 0, 0}, {8, 23}), 8);
 }
 
 }  // namespace
