@@ -206,6 +206,35 @@ class SurfaceExperiment : public Experiment {
     View view_;
 };
 
+class WatertightExperiment : public Experiment {
+  public:
+    explicit WatertightExperiment(std::vector<PlacedRays> places) : places_(std::move(places)) {}
+
+    [[nodiscard]] Measured measured() const override { return {.crossings = true, .doubles = true}; }
+    [[nodiscard]] std::size_t triangles_per_ray() const override {
+        return places_[0].surface->corners.size();
+    }
+    void examine(RandomStream& random, Subjects subjects, std::span<Tally> tallies) const override {
+        const auto place = std::size_t(random.next() * float(places_.size()));
+        const Surface& surface = *places_[place].surface;
+        const Ray ray = places_[place].draw(random);
+        std::optional<Truth> truth;
+        for (std::size_t i = 0; i < subjects.size(); ++i) {
+            const std::vector<SurfaceHit> hits = subjects[i]->all_hits(ray, surface);
+            if (hits.size() == 1) {
+                ++tallies[i].rays;
+                ++tallies[i].hits;
+                continue;
+            }
+            if (!truth) truth.emplace(ray, surface.corners);
+            truth->judge(hits, View::Across, tallies[i]);
+        }
+    }
+
+  private:
+    std::vector<PlacedRays> places_;
+};
+
 class InsideExperiment : public Experiment {
   public:
     InsideExperiment(std::shared_ptr<const Surface> surface, DrawRay draw)
@@ -254,6 +283,10 @@ std::unique_ptr<Experiment> edge_experiment(DrawFan draw, std::size_t triangles)
 std::unique_ptr<Experiment> surface_experiment(std::shared_ptr<const Surface> surface, DrawRay draw,
                                                View view) {
     return std::make_unique<SurfaceExperiment>(std::move(surface), std::move(draw), view);
+}
+
+std::unique_ptr<Experiment> watertight_experiment(std::vector<PlacedRays> places) {
+    return std::make_unique<WatertightExperiment>(std::move(places));
 }
 
 std::unique_ptr<Experiment> inside_experiment(std::shared_ptr<const Surface> surface, DrawRay draw) {

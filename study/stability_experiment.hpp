@@ -77,6 +77,16 @@ enum class View : std::uint8_t { Across, Along };
 [[nodiscard]] std::unique_ptr<Experiment> surface_experiment(std::shared_ptr<const Surface> surface,
                                                              DrawRay draw, View view = View::Across);
 
+/// A closed surface at one place, and rays at it.
+struct PlacedRays {
+    std::shared_ptr<const Surface> surface;
+    DrawRay draw;
+};
+
+/// A closed surface at several places in turn. Rays from inside, most of which cross it once: the oracle is
+/// asked only where a method says otherwise. So only leaks, doubles and parity, but 10 times as many rays.
+[[nodiscard]] std::unique_ptr<Experiment> watertight_experiment(std::vector<PlacedRays> places);
+
 /// A surface too large to be tested triangle by triangle, and rays that cross it an odd number of times: only
 /// subjects that are not exhaustive, only leaks and parity.
 [[nodiscard]] std::unique_ptr<Experiment> inside_experiment(std::shared_ptr<const Surface> surface,

@@ -126,6 +126,19 @@ StabilityCase fans() {
     return result;
 }
 
+StabilityCase watertight() {
+    StabilityCase result{23,
+                         "watertight",
+                         "closed meshes at 15 offsets and scales, for very many rays",
+                         "no leak, no double hit, no parity error",
+                         {}};
+    for (const ClosedMesh& mesh : closed_meshes()) {
+        result.settings.push_back({std::string(mesh.name), "vertex, edge, random",
+                                   [&mesh] { return watertight_experiment(everywhere(mesh)); }});
+    }
+    return result;
+}
+
 // The tree of a million triangles, built once for all aims.
 std::shared_ptr<const Surface> million() {
     static std::weak_ptr<const Surface> known;
@@ -152,7 +165,8 @@ StabilityCase large_mesh() {
 }  // namespace
 
 std::vector<StabilityCase> surface_cases() {
-    return {shared_edge(), shared_vertex(), far_offset(), axis_aligned(), silhouette(), fans(), large_mesh()};
+    return {shared_edge(), shared_vertex(), far_offset(), axis_aligned(),
+            silhouette(),  fans(),          large_mesh(), watertight()};
 }
 
 }  // namespace rtu::study
