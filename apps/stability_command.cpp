@@ -28,7 +28,7 @@ constexpr const char* description =
 
 struct StabilityArguments {
     std::string methods, cases;
-    std::string rays = "2000";
+    std::string rays = "1000";
     std::string seed = "1";
     std::string scene;
     unsigned threads = 0;  ///< 0: all cores
