@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +19,8 @@
 #include "apps/standard_output.hpp"
 #include "model/error.hpp"
 #include "study/output_file.hpp"
+#include "study/precision_ladder.hpp"
+#include "study/precision_output.hpp"
 #include "study/stability_run.hpp"
 
 namespace rtu::apps {
@@ -28,7 +32,7 @@ constexpr const char* description =
 
 struct StabilityArguments {
     std::string methods, cases;
-    std::string rays = "2000";
+    std::string rays = "1000";
     std::string seed = "1";
     std::string scene;
     unsigned threads = 0;  ///< 0: all cores
@@ -104,6 +108,28 @@ study::StabilityReport run(StabilityPlan& plan) {
     return study::run_stability(plan.options);
 }
 
+// What the rays of the scene need: rtusim precision, on at most as many rays as it takes by itself.
+std::optional<study::PrecisionReport> judge_precision(const StabilityPlan& plan) {
+    if (!plan.options.scene) return std::nullopt;
+    Progress progress;
+    study::PrecisionOptions options;
+    options.scenes = {*plan.options.scene};
+    options.ray_count = std::uint32_t(std::min<std::uint64_t>(options.ray_count, plan.options.rays));
+    options.seed = plan.options.seed;
+    options.progress = [&](std::string_view phase) { progress.show("precision", phase); };
+    return study::run_precision_study(options);
+}
+
+std::string json_of(const study::StabilityReport& report,
+                    const std::optional<study::PrecisionReport>& precision) {
+    using Json = nlohmann::ordered_json;
+    std::string text = study::stability_json(report);
+    if (!precision) return text;
+    Json document = Json::parse(text);
+    document["precision"] = Json::parse(study::precision_json(*precision));
+    return document.dump(2) + "\n";
+}
+
 int run_stability_command(const StabilityArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     StabilityPlan plan = make_plan(arguments);
@@ -112,11 +138,17 @@ int run_stability_command(const StabilityArguments& arguments) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
     }
     const study::StabilityReport report = run(plan);
+    const std::optional<study::PrecisionReport> precision = judge_precision(plan);
     std::vector<study::OutputFile> files;
-    if (plan.json) files.push_back({*plan.json, study::stability_json(report)});
+    if (plan.json) files.push_back({*plan.json, json_of(report, precision)});
     if (plan.csv) files.push_back({*plan.csv, study::stability_csv(report)});
     study::write_files(files);
-    print_all(plan.is_json_to_stdout ? study::stability_json(report) : study::stability_text(report));
+    if (plan.is_json_to_stdout) {
+        print_all(json_of(report, precision));
+    } else {
+        print_all(study::stability_text(report) +
+                  (precision ? "\n" + study::precision_text(*precision) : std::string()));
+    }
     return exit_done;
 }
 
@@ -138,7 +170,8 @@ void add_options(CLI::App& stability, StabilityArguments& arguments) {
         ->capture_default_str();
     stability
         .add_option("--scene", arguments.scene,
-                    "a glTF file: rays at its triangles, instead of all cases or besides those of --case")
+                    "a glTF file: rays at its triangles, instead of all cases or besides those of --case,\n"
+                    "and the cheapest method and number format that is exact enough for its rays")
         ->type_name("FILE")
         ->check(is_not_empty());
     stability

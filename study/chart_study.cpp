@@ -41,7 +41,8 @@ constexpr std::array charts = std::to_array<ChartInfo>({
      "to the ray stay where they were."},
     {"operations", "what a pair of triangles with a common edge saves",
      "Counted while the methods' own code runs, without the comparison of t with the ray's interval and the "
-     "division for t, u and v. Both triangles of a pair are hit only if it is folded; with one depth unit, which "
+     "division for t, u and v. Both triangles of a pair are hit only if it is folded; with one depth unit, "
+     "which "
      "is free for the other half, a pair takes what it does for one hit."},
     {"widths", "how packets speed up with SIMD width, beside the published table",
      "Published: Havel and Herout, Table I, Core 2 Duo E8200, single rays and packets of four. Theirs are "

@@ -33,7 +33,7 @@ std::uint32_t hits_of(const Method& method, const Ray& ray, std::span<const Corn
 int badness(std::uint32_t hits) { return hits == 0 ? 2 : hits % 2 == 0 ? 1 : 0; }
 
 // The rays of a picture, and the pixel of each.
-struct View {
+struct PictureRays {
     std::uint32_t width, height;
     Vec3 eye;
     std::vector<Ray> rays;
@@ -52,8 +52,8 @@ struct View {
     }
 };
 
-View view_of(const model::TriangleMesh& mesh, std::uint32_t width, std::uint32_t height) {
-    View view{width, height, {0.01F, -0.02F, 0.03F}, {}, {}};
+PictureRays picture_rays(const model::TriangleMesh& mesh, std::uint32_t width, std::uint32_t height) {
+    PictureRays view{width, height, {0.01F, -0.02F, 0.03F}, {}, {}};
     for (std::uint32_t y = 0; y < height; ++y) {
         for (std::uint32_t x = 0; x < width; ++x) {
             view.add(
@@ -113,7 +113,7 @@ std::vector<ParityMap> parity_maps(std::span<const std::string> methods, std::ui
     for (const model::Triangle& t : mesh.triangles) {
         triangles.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
     }
-    const View view = view_of(mesh, width, height);
+    const PictureRays view = picture_rays(mesh, width, height);
     std::vector<ParityMap> maps(methods.size());
     model::for_each_range<std::size_t>(methods.size(), 1, [&](const auto& range) {
         for (std::size_t m = range.begin(); m != range.end(); ++m) {

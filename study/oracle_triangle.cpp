@@ -142,6 +142,15 @@ bool is_surely_missed(const Ray& ray, const Corners& corners) {
     return have_opposite_signs(weights_of(ray, corners));
 }
 
+int facing(const Ray& ray, const Corners& corners) {
+    const Bounded along = triple(difference(ray.direction, {}), difference(corners[1], corners[0]),
+                                 difference(corners[2], corners[0]));
+    if (along.has_sign()) return along.value > 0 ? 1 : -1;
+    const RationalMeeting exact = meet_exactly(ray, corners);
+    const Rational sum = exact.weights[0] + exact.weights[1] + exact.weights[2];
+    return sum > 0 ? 1 : sum < 0 ? -1 : 0;
+}
+
 std::optional<OracleDecision> decide_by_integers(const Ray& ray, const Corners& corners) {
     BitRange positions, directions;
     positions.extend(ray.origin);

@@ -37,6 +37,10 @@ struct OracleDecision {
 /// can_hit() and finite corners; everything else is a Miss, after the rules of docs/stability.md.
 [[nodiscard]] OracleDecision decide(const model::Ray& ray, const model::methods::Corners& corners);
 
+/// The sign of direction . ((b - a) x (c - a)): from which side the line comes; 0 for a triangle seen edge-on
+/// or without area. Exact, for finite numbers.
+[[nodiscard]] int facing(const model::Ray& ray, const model::methods::Corners& corners);
+
 /// True when binary64 alone proves that the ray's line passes outside the triangle.
 [[nodiscard]] bool is_surely_missed(const model::Ray& ray, const model::methods::Corners& corners);
 

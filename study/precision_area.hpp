@@ -6,8 +6,8 @@
 
 namespace rtu::study {
 
-/// What the arithmetic of a fully pipelined tester of those operations takes, in units of one binary32 multiplier. With p the
-/// bits of a significand, the implicit one included:
+/// What the arithmetic of a fully pipelined tester of those operations takes, in units of one binary32
+/// multiplier. With p the bits of a significand, the implicit one included:
 ///     multiplier (p / 24)^2    adder 0.3 p / 24    divider 8 (p / 24)^2
 /// A proxy: the ratios at p = 24 and both laws are assumed. Comparisons, exponents, registers and control are
 /// left out.

@@ -1,5 +1,6 @@
 #include "study/stability_aims.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -100,6 +101,27 @@ DrawRay rays_at(std::shared_ptr<const Surface> surface, float inner_radius, Plac
             if (ray.direction != Vec3{}) return ray;  // far away, target and origin may be one
         }
     };
+}
+
+std::vector<PlacedRays> everywhere(const ClosedMesh& mesh) {
+    std::vector<PlacedRays> places;
+    const model::TriangleMesh at_origin = mesh.make();
+    for (const float scale : {1e-6F, 1.0F, 1e6F}) {
+        for (const Vec3 offset :
+             {Vec3{}, Vec3{1e3F, -1e3F, 5e2F}, Vec3{1e4F, -1e4F, 5e3F}, Vec3{1e5F, -1e5F, 5e4F},
+              Vec3{148376, 1234, -223423}, Vec3{1e6F, -1e6F, 5e5F}, Vec3{1e7F, -1e7F, 5e6F}}) {
+            const float largest = std::max(std::abs(offset.x), std::abs(offset.z));
+            const Placement placement{std::max(scale, largest * 0x1p-12F), offset};
+            if (scale < 1 && placement.scale > scale) continue;  // the same as at scale 1, or nearly
+            const auto surface = placed_surface(at_origin, placement);
+            const std::array<DrawRay, 3> aims{rays_at(surface, mesh.inner_radius, placement, Aim::Vertex),
+                                              rays_at(surface, mesh.inner_radius, placement, Aim::Edge),
+                                              rays_at(surface, mesh.inner_radius, placement, Aim::Random)};
+            places.push_back(
+                {surface, [aims](RandomStream& random) { return aims[draw_below(random, 3)](random); }});
+        }
+    }
+    return places;
 }
 
 std::shared_ptr<const Surface> placed_surface(const model::TriangleMesh& mesh, Placement placement) {

@@ -64,11 +64,28 @@ using DrawFan = std::function<Fan(model::RandomStream&)>;
 /// Several triangles, their hits held against those of exact arithmetic.
 [[nodiscard]] std::unique_ptr<Experiment> fan_experiment(DrawFan draw, std::size_t triangles);
 
+/// Triangles around one edge, (a, b, ...) and (b, a, ...) in turn, and a ray at the edge: all triangles on
+/// one side of it must be hit and none on the other, as the DXR specification has it.
+[[nodiscard]] std::unique_ptr<Experiment> edge_experiment(DrawFan draw, std::size_t triangles);
+
 using DrawRay = std::function<model::Ray(model::RandomStream&)>;
+
+/// Whether rays run across a surface, or may run along it, where facings are a matter of rounding.
+enum class View : std::uint8_t { Across, Along };
 
 /// A whole surface, all triangles of which the oracle judges.
 [[nodiscard]] std::unique_ptr<Experiment> surface_experiment(std::shared_ptr<const Surface> surface,
-                                                             DrawRay draw);
+                                                             DrawRay draw, View view = View::Across);
+
+/// A closed surface at one place, and rays at it.
+struct PlacedRays {
+    std::shared_ptr<const Surface> surface;
+    DrawRay draw;
+};
+
+/// A closed surface at several places in turn. Rays from inside, most of which cross it once: the oracle is
+/// asked only where a method says otherwise. So only leaks, doubles and parity, but 10 times as many rays.
+[[nodiscard]] std::unique_ptr<Experiment> watertight_experiment(std::vector<PlacedRays> places);
 
 /// A surface too large to be tested triangle by triangle, and rays that cross it an odd number of times: only
 /// subjects that are not exhaustive, only leaks and parity.

@@ -211,7 +211,7 @@ DrawProbe probe_of_spoilt(Spoilt kind) {
     };
 }
 
-DrawFan fan_at_edge(std::uint32_t leaves, Target target) {
+DrawFan fan_at_edge(std::uint32_t leaves) {
     return [=](RandomStream& random) {
         const Vec3 a = draw_point(random, 1), b = draw_point(random, 1);
         Fan fan;
@@ -219,8 +219,7 @@ DrawFan fan_at_edge(std::uint32_t leaves, Target target) {
             const Vec3 tip = draw_point(random, 1);
             fan.triangles.push_back(i % 2 == 0 ? Corners{a, b, tip} : Corners{b, a, tip});
         }
-        const Vec3 aim = target == Target::Vertex ? a : a + (b - a) * random.next();
-        fan.ray = ray_through(draw_point(random, 3), aim);
+        fan.ray = ray_through(draw_point(random, 3), a + (b - a) * draw_between(random, 0.125F, 0.875F));
         return fan;
     };
 }

@@ -67,8 +67,8 @@ enum class Spoilt : std::uint8_t {
 };
 [[nodiscard]] DrawProbe probe_of_spoilt(Spoilt kind);
 
-/// Triangles around one edge: `leaves` of them, of two and more, at random angles, or a folded pair.
-[[nodiscard]] DrawFan fan_at_edge(std::uint32_t leaves, Target target);
+/// Triangles around one edge, `leaves` of them at random angles; the ray at a point of the edge.
+[[nodiscard]] DrawFan fan_at_edge(std::uint32_t leaves);
 /// Both triangles on the same side of the plane through their edge, one behind the other.
 [[nodiscard]] DrawFan folded_pair();
 /// A long edge with a vertex of two other triangles on it: exactly, or rounded to the nearest binary32.

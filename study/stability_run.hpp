@@ -20,7 +20,7 @@ inline constexpr std::uint64_t max_stability_rays = 4'000'000'000;
 struct StabilityOptions {
     std::vector<std::string> methods;  ///< empty: all
     std::vector<std::string> cases;    ///< empty: all
-    std::uint64_t rays = 2'000;        ///< a setting, 1 to max_stability_rays
+    std::uint64_t rays = 1'000;        ///< a setting, 1 to max_stability_rays
     std::uint64_t seed = 1;
     std::optional<SceneSource> scene;  ///< a scene whose triangles are one more case
     std::function<void(std::string_view scene, std::string_view phase)> progress;  ///< may be empty

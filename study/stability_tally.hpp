@@ -32,12 +32,13 @@ class ErrorHistogram {
 struct Tally {
     std::uint64_t rays = 0;           ///< rays, or rays with a triangle
     std::uint64_t hits = 0;           ///< hits reported
-    std::uint64_t leaks = 0;          ///< rays with fewer hits than the surface has crossings
-    std::uint64_t doubles = 0;        ///< rays with more
+    std::uint64_t leaks = 0;          ///< rays with fewer hits than the surface has crossings, but for those
+                                      ///< that miss a way in and the way out beside it
+    std::uint64_t doubles = 0;        ///< rays with more, but for those likewise
     std::uint64_t parity_errors = 0;  ///< rays whose hits are odd in number and crossings even, or vice versa
     std::uint64_t false_hits = 0;     ///< hits of a triangle that the ray does not meet, border included
     std::uint64_t false_misses = 0;   ///< triangles met inside and not hit
-    std::uint64_t wrong_owners = 0;   ///< right number of hits, but another triangle at an edge or vertex
+    std::uint64_t wrong_owners = 0;   ///< rays with neither, and yet other triangles than exact arithmetic's
     std::uint64_t non_finite = 0;     ///< hits with a NaN or infinity in t, u or v
     std::uint64_t self_hits = 0;      ///< rays that hit the surface which they leave
     std::uint64_t variant_errors = 0;  ///< rays whose answer changes with what must not change it

@@ -85,8 +85,8 @@ struct EmulatedMethod {
     std::optional<EmulatedHit> (*test)(const Ray& ray, const Corners& triangle, NumberFormat format);
 };
 
-/// Those of all_methods() that are made of rounded arithmetic, in its order: all but `exact`, and `woop_exact`,
-/// whose error bounds are those of binary32.
+/// Those of all_methods() that are made of rounded arithmetic, in its order: all but `exact`, and
+/// `woop_exact`, whose error bounds are those of binary32.
 [[nodiscard]] std::span<const EmulatedMethod> emulated_methods();
 
 /// The ray and the triangle as a format of at most 23 bits of mantissa holds them, as binary32 again. What a

@@ -117,9 +117,10 @@ template <class Real>
 /// Decided for scalars; lanes are taken to be able.
 template <class Real>
 [[nodiscard]] bool can_be_hit(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
-    if constexpr (std::is_constructible_v<float, Real>) {
+    if constexpr (std::is_constructible_v<double, Real>) {
         const auto narrow = [](const Vector<Real>& v) {
-            return Vec3{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+            const auto component = [&](int axis) { return static_cast<float>(static_cast<double>(v[axis])); };
+            return Vec3{component(0), component(1), component(2)};
         };
         const Vec3 p = narrow(a), q = narrow(b), r = narrow(c);
         return is_finite(p) && is_finite(q) && is_finite(r) && !is_collinear(p, q, r);
