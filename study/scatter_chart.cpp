@@ -16,7 +16,10 @@ using namespace gnuplot;
 constexpr PixelSize size{960, 600};
 // The plot within the picture, in pixels from the lower left.
 constexpr double plot_left = 90, plot_right = 800, plot_bottom = 70, plot_top = 540;
-constexpr double character_width = 8, line_height = 16;
+constexpr double line_height = 16;
+
+// Generous: letters differ.
+double name_width(std::size_t characters) { return 8 * double(characters) + 10; }
 
 struct Axis {
     double lo = 0, hi = 1;
@@ -55,7 +58,7 @@ class NamePlaces {
         for (const Place p : points) taken_.push_back({p.x - 7, p.y - 7, p.x + 7, p.y + 7});
     }
     Place put(Place point, std::size_t characters) {
-        const double width = character_width * double(characters);
+        const double width = name_width(characters);
         for (double distance = 0; distance < 260; distance += 4) {
             for (const auto& [dx, dy] : directions_) {
                 const Place at{point.x + 11 + dx * distance - (dx < 0 ? width + 22 : 0),
@@ -92,7 +95,7 @@ std::string names(const ScatterChart& chart, const Axis& x, const Axis& y) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Place at = places.put(points[i], chart.points[i].name.size());
         const bool is_left = at.x < points[i].x;
-        const double end_x = is_left ? at.x + character_width * double(chart.points[i].name.size()) : at.x;
+        const double end_x = is_left ? at.x + name_width(chart.points[i].name.size()) : at.x;
         out +=
             fmt::format("set label {} at screen {:.4f}, screen {:.4f} {}\n", in_quotes(chart.points[i].name),
                         end_x / size.width, at.y / size.height, is_left ? "right" : "left");
