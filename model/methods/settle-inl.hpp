@@ -9,8 +9,12 @@ RTU_BEFORE_TARGET();
 namespace rtu::model::methods::RTU_TARGET {
 
 template <class Real>
+[[nodiscard]] float binary32(const Real& value) {
+    return static_cast<float>(static_cast<double>(value));
+}
+template <class Real>
 [[nodiscard]] Vec3 point_of(const Vector<Real>& v) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+    return {binary32(v[0]), binary32(v[1]), binary32(v[2])};
 }
 
 /// Replaces what `candidate` says where `is_decided` is not set.
@@ -19,8 +23,7 @@ HWY_NOINLINE void settle_exactly(const Vector<Real>& origin, const Vector<Real>&
                                  const Interval<Real>& interval, const Vector<Real>& a, const Vector<Real>& b,
                                  const Vector<Real>& c, bool is_decided, Candidate<Real>& candidate) {
     if (is_decided) return;
-    const Ray ray{point_of(origin), static_cast<float>(interval.t_min), point_of(direction),
-                  static_cast<float>(interval.t_max)};
+    const Ray ray{point_of(origin), binary32(interval.t_min), point_of(direction), binary32(interval.t_max)};
     const std::optional<TestHit> hit = test_exactly(ray, {point_of(a), point_of(b), point_of(c)});
     candidate = {hit.has_value()};
     if (hit) candidate = {true, Real(hit->t), Real(hit->u), Real(hit->v), Real(1.0F)};
