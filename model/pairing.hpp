@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "model/huge_pages.hpp"
 #include "model/mesh.hpp"
 #include "model/pair.hpp"
 
@@ -46,9 +46,9 @@ enum class EdgeIdentity : std::uint8_t { Index, Position };
 
 /// A partition of a mesh's triangles into pairs and lone triangles.
 struct Pairing {
-    std::vector<TrianglePair> pairs;  ///< every triangle exactly once, ordered by their first primitive id
-    std::uint64_t pair_count = 0;     ///< entries with two triangles
-    std::uint64_t single_count = 0;   ///< entries with one
+    LargeArray<TrianglePair> pairs;  ///< every triangle exactly once, ordered by their first primitive id
+    std::uint64_t pair_count = 0;    ///< entries with two triangles
+    std::uint64_t single_count = 0;  ///< entries with one
 
     /// Share of the triangles that are in a pair, in percent; 0 for an empty mesh.
     [[nodiscard]] double paired_percent() const {
