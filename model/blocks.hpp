@@ -32,9 +32,11 @@ struct Blocks {
             body(block, block * size, std::min(item_count, (block + 1) * size));
         };
         if (count() == 1) return visit(0);
-        for_each_range<std::size_t>(count(), 1, [&](const auto& blocks) {
+        const auto visit_some = [&](const auto& blocks) {
             for (std::size_t block = blocks.begin(); block < blocks.end(); ++block) visit(block);
-        });
+        };
+        // A thread keeps its share from pass to pass, so that it finds it in its own cache.
+        for_each_range<std::size_t>(count(), 1, visit_some, tbb::static_partitioner{});
     }
 
   private:

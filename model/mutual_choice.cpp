@@ -32,8 +32,10 @@ class MutualChoice {
         std::size_t open = orders_.size();
         while (open > 0) {
             const std::size_t before = std::exchange(open, pair_mutual_choices());
-            // In a strip whose edges grow all along, each round would pair but its last two triangles.
-            if (open > before / 8 * 7) {
+            // Handing out a few takes longer than to pair them, and in a strip whose edges grow all along
+            // each round would pair but its last two triangles.
+            constexpr std::size_t few = 1024;
+            if (open < few || open > before / 8 * 7) {
                 follow_choices();
                 break;
             }
