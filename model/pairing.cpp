@@ -93,15 +93,41 @@ Pairing collect(const IdentifiedMesh& mesh, const Matching& matching) {
     return result;
 }
 
-}  // namespace
-
-Pairing pair_triangles(const TriangleMesh& mesh, PairingMethod method, EdgeIdentity identity) {
+void check_size(const TriangleMesh& mesh) {
     constexpr std::size_t index_end = std::numeric_limits<std::uint32_t>::max();
     RTU_CHECK(mesh.triangles.size() <= index_end / 3, "{} triangles", mesh.triangles.size());
     RTU_CHECK(mesh.positions.size() < index_end, "{} vertices", mesh.positions.size());
-    ScratchMemory memory(scratch_bytes(mesh));
-    const IdentifiedMesh identified{mesh.triangles, mesh.positions, vertex_ids(mesh, identity, memory)};
-    return collect(identified, match(identified, method, memory));
+}
+
+/// A mesh whose vertices are identified, with the memory of everything that is computed from it.
+struct Workspace {
+    ScratchMemory memory;
+    IdentifiedMesh mesh;
+
+    Workspace(const TriangleMesh& source, EdgeIdentity identity)
+        : memory(scratch_bytes(source)),
+          mesh{source.triangles, source.positions, vertex_ids(source, identity, memory)} {}
+};
+
+}  // namespace
+
+Pairing pair_triangles(const TriangleMesh& mesh, PairingMethod method, EdgeIdentity identity) {
+    check_size(mesh);
+    Workspace workspace(mesh, identity);
+    return collect(workspace.mesh, match(workspace.mesh, method, workspace.memory));
+}
+
+CompressionCost compression_cost(const TriangleMesh& mesh, EdgeIdentity identity) {
+    check_size(mesh);
+    Workspace workspace(mesh, identity);
+    CompressionCost cost = compression_cost(workspace.mesh, workspace.memory);
+    const auto pair_count = [&](PairingKind kind) {
+        const ScratchMemory::Scope scope(workspace.memory);
+        return match(workspace.mesh, {kind, 0}, workspace.memory).pair_count();
+    };
+    cost.exact_pairs = pair_count(PairingKind::EdgeBbsa);
+    cost.pairs = pair_count(PairingKind::EdgeBbsaCompressed);
+    return cost;
 }
 
 }  // namespace rtu::model

@@ -63,4 +63,18 @@ struct Pairing {
 /// docs/pairing.md.
 [[nodiscard]] Pairing pair_triangles(const TriangleMesh& mesh, PairingMethod method, EdgeIdentity identity);
 
+/// What the 16-byte half-edges of edge_bbsa_compressed cost. Candidates are neighbours of the sorted
+/// half-edge table with equal keys, of two different triangles, before the greedy scan.
+struct CompressionCost {
+    std::uint64_t exact_candidates = 0;  ///< of the uncompressed table
+    std::uint64_t candidates = 0;        ///< of the compressed one
+    std::uint64_t wrong_candidates = 0;  ///< of the compressed ones, those without a common edge
+    std::uint64_t lost_candidates = 0;   ///< exact ones whose triangles are no candidate of the compressed
+    std::uint64_t exact_pairs = 0;       ///< of edge_bbsa
+    std::uint64_t pairs = 0;             ///< of edge_bbsa_compressed
+};
+
+/// Deterministic. Pairs the mesh twice.
+[[nodiscard]] CompressionCost compression_cost(const TriangleMesh& mesh, EdgeIdentity identity);
+
 }  // namespace rtu::model
