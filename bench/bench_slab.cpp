@@ -1,5 +1,5 @@
 // The slab test with an interval that starts at the ray's t_min, and with one that starts at zero: what
-// leaving t_min out of a box test gains, as [LIN18] reports 1 % of a path tracer's time.
+// leaving t_min out of a box test gains, as [EP18] (docs/methods.md) reports 1 % of a path tracer's time.
 
 #include <benchmark/benchmark.h>
 

@@ -39,6 +39,7 @@ class Counted {
         return counted;
     }
     [[nodiscard]] float value() const { return value_; }
+    explicit operator float() const { return value_; }
     explicit operator double() const { return double(value_); }
 
     [[nodiscard]] static Tally& tally() {

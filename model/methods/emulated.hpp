@@ -86,7 +86,7 @@ struct EmulatedMethod {
 };
 
 /// Those of all_methods() that are made of rounded arithmetic, in its order: all but `exact`, and
-/// `woop_exact`, whose error bounds are those of binary32.
+/// `woop_exact`, whose error bounds are those of binary32, and `havel_herout_sse4`, which is no template.
 [[nodiscard]] std::span<const EmulatedMethod> emulated_methods();
 
 /// The ray and the triangle as a format of at most 23 bits of mantissa holds them, as binary32 again. What a

@@ -34,7 +34,8 @@ struct MethodCounts {
 };
 
 /// The operations of every method that is a template, in their order; found by running it, nothing is typed
-/// in. What a tie takes in woop_double and woop_top_left is not among them.
+/// in. What a tie takes in woop_double and woop_top_left,
+/// and a doubt in woop_exact, is not among them.
 [[nodiscard]] std::span<const MethodCounts> operation_counts();
 
 /// Of the method of that name; null when there is none.

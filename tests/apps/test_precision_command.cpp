@@ -81,7 +81,8 @@ TEST_F(ChartCommand, WritesPicturesAndAPage) {
     EXPECT_THAT(content("pictures/methods_operations.svg"), HasSubstr("</svg>"));
     EXPECT_THAT(content("page.html"), HasSubstr("Precision ladder of ball"));
     EXPECT_EQ(result.out,
-              "pictures/methods_operations.svg, .png: Operations when every triangle is hit\n"
+              "pictures/methods_operations.svg, .png: Operations of triangles that are hit, before the last "
+              "division\n"
               "pictures/methods_precision.svg, .png: Precision ladder of ball: mantissas of 7 to 23 "
               "bits, 100 rays\npage.html\n");
 }

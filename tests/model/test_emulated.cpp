@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -112,9 +114,25 @@ TEST(EmulatedMethods, InBinary32AreTheMethodsToTheBit) {
             ASSERT_TRUE(is_same(got->u, expected->u)) << method.info.name << ", case " << i;
             ASSERT_TRUE(is_same(got->v, expected->v)) << method.info.name << ", case " << i;
         }
-        EXPECT_GT(hits, 3000) << method.info.name;
+        EXPECT_GT(hits, 1500) << method.info.name;
     }
-    EXPECT_EQ(emulated_methods().size() + 2, all_methods().size());  // exact, woop_exact
+}
+
+TEST(EmulatedMethods, AreAllButThoseThatAreNotMadeOfRoundedArithmetic) {
+    const std::set<std::string_view> others{"exact", "woop_exact", "havel_herout_sse4"};
+    for (const Method& method : all_methods()) {
+        const auto is_it = [&](const EmulatedMethod& one) { return one.info.name == method.info.name; };
+        EXPECT_NE(std::ranges::any_of(emulated_methods(), is_it), others.contains(method.info.name))
+            << method.info.name;
+    }
+}
+
+// A one-sided method sees a triangle in one of its windings.
+std::optional<EmulatedHit> hit_of(const EmulatedMethod& method, const Ray& ray, const Corners& triangle,
+                                  NumberFormat format) {
+    const auto hit = method.test(ray, triangle, format);
+    if (hit || !method.info.is_one_sided) return hit;
+    return method.test(ray, {triangle[0], triangle[2], triangle[1]}, format);
 }
 
 TEST(EmulatedMethods, LoseAccuracyBitByBit) {
@@ -123,11 +141,11 @@ TEST(EmulatedMethods, LoseAccuracyBitByBit) {
     const double t = double(test_exactly(ray, triangle).value().t);
     for (const EmulatedMethod& method : emulated_methods()) {
         for (const int bits : {7, 11, 15, 19, 23}) {
-            const auto hit = method.test(ray, triangle, {8, std::uint8_t(bits)});
+            const auto hit = hit_of(method, ray, triangle, {8, std::uint8_t(bits)});
             ASSERT_TRUE(hit) << method.info.name << ", " << bits;
             EXPECT_NEAR(hit->t, t, std::ldexp(60 * t, -bits - 1)) << method.info.name << ", " << bits;
         }
-        const auto narrow = method.test(ray, triangle, {8, 7});
+        const auto narrow = hit_of(method, ray, triangle, {8, 7});
         EXPECT_GT(std::abs(narrow->t - t), std::ldexp(t, -20)) << method.info.name;
     }
 }
@@ -137,12 +155,14 @@ TEST(EmulatedMethods, HitHugeTrianglesWithAWiderExponent) {
     const float s = 1e15F;
     const Corners triangle{Vec3{-s, -s, s}, Vec3{s, -s, s}, Vec3{0, s, s}};
     const Ray ray{{0, 0, 0}, 0, {s / 64, s / 128, s / 2}, std::numeric_limits<float>::infinity()};
+    int overflows = 0;
     for (const EmulatedMethod& method : emulated_methods()) {
-        const auto hit = method.test(ray, triangle, {10, 23});
+        const auto hit = hit_of(method, ray, triangle, {10, 23});
         ASSERT_TRUE(hit) << method.info.name;
         EXPECT_NEAR(hit->t, 2, 1e-5) << method.info.name;
+        overflows += hit_of(method, ray, triangle, binary32) ? 0 : 1;
     }
-    EXPECT_FALSE(emulated_methods()[0].test(ray, triangle, binary32)) << emulated_methods()[0].info.name;
+    EXPECT_GT(overflows, 5);
 }
 
 TEST(NumberFormat, IsCalledByItsNameOrItsBits) {

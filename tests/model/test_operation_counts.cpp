@@ -73,7 +73,7 @@ TEST(OperationCounts, OfPairsAreLessThanOfTwoTriangles) {
         EXPECT_LT(method.pair->both_full.add, 2 * method.single.full.add) << method.name;
         EXPECT_LT(method.pair->both.mul, 2 * method.single.hit.mul) << method.name;
     }
-    EXPECT_EQ(pairs, 6);
+    EXPECT_EQ(pairs, 7);
 }
 
 TEST(OperationCounts, GrowFromTheFirstExitToTheHit) {
