@@ -68,8 +68,8 @@ Bounds exact_difference(NumberFormat format, float a, float b) {
     return enclosed(format, s, sum_error(double(a), -double(b), s));
 }
 
-// A quotient of two floats is never nearer to a third than 2^-49 of itself unless it is equal: binary64 has it
-// on the right side.
+// A quotient of two floats is never nearer to a third than 2^-49 of itself unless it is equal: binary64 has
+// it on the right side.
 Bounds quotient(NumberFormat format, float a, float b) {
     const double q = double(a) / double(b);
     return {floored(format, q), ceiled(format, q)};
