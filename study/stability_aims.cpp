@@ -90,8 +90,8 @@ std::string_view to_string(Aim aim) {
     return names[std::size_t(aim)];
 }
 
-DrawRay rays_at(std::shared_ptr<const Surface> surface, float inner_radius, Placement placement, Aim aim,
-                std::uint32_t squares) {
+DrawRay rays_at(const std::shared_ptr<const Surface>& surface, float inner_radius, Placement placement,
+                Aim aim, std::uint32_t squares) {
     return [=](RandomStream& random) {
         if (aim == Aim::AxisVertex || aim == Aim::AxisEdge || aim == Aim::AxisDiagonal) {
             return axis_ray(random, squares, aim);
@@ -114,11 +114,9 @@ std::vector<PlacedRays> everywhere(const ClosedMesh& mesh) {
             const Placement placement{std::max(scale, largest * 0x1p-12F), offset};
             if (scale < 1 && placement.scale > scale) continue;  // the same as at scale 1, or nearly
             const auto surface = placed_surface(at_origin, placement);
-            const std::array<DrawRay, 3> aims{rays_at(surface, mesh.inner_radius, placement, Aim::Vertex),
-                                              rays_at(surface, mesh.inner_radius, placement, Aim::Edge),
-                                              rays_at(surface, mesh.inner_radius, placement, Aim::Random)};
-            places.push_back(
-                {surface, [aims](RandomStream& random) { return aims[draw_below(random, 3)](random); }});
+            for (const Aim aim : {Aim::Vertex, Aim::Edge, Aim::Random}) {
+                places.push_back({surface, rays_at(surface, mesh.inner_radius, placement, aim)});
+            }
         }
     }
     return places;

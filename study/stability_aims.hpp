@@ -33,8 +33,8 @@ struct Placement {
 };
 
 /// Rays at a placed closed mesh. For axis aims the mesh must be box_grid(squares).
-[[nodiscard]] DrawRay rays_at(std::shared_ptr<const Surface> surface, float inner_radius, Placement placement,
-                              Aim aim, std::uint32_t squares = 0);
+[[nodiscard]] DrawRay rays_at(const std::shared_ptr<const Surface>& surface, float inner_radius,
+                              Placement placement, Aim aim, std::uint32_t squares = 0);
 
 /// A closed mesh at offsets 0 to 1e7 and scales 1e-6 to 1e6, under rays at vertices, edges and anywhere, a
 /// third each. Where binary32 is too coarse for the mesh, it is larger: 2^12 units in the last place at

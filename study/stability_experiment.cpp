@@ -94,8 +94,9 @@ class Truth {
     // Of triangles around an edge, those on one side of it are hit: all of them, and no other.
     void judge_edge(std::span<const SurfaceHit> hits, Tally& tally) const {
         std::array<std::size_t, 3> all{}, hit{};  // by the side, behind it, edge-on, before it
-        const auto side = [this](std::uint32_t id) {
-            return std::size_t(1 + facing(ray_, triangles_[id]) * (id % 2 == 0 ? 1 : -1));
+        const auto side = [this](std::uint32_t id) -> std::size_t {
+            const int from = facing(ray_, triangles_[id]) * (id % 2 == 0 ? 1 : -1);
+            return from < 0 ? 0 : from == 0 ? 1 : 2;
         };
         for (std::uint32_t id = 0; id < triangles_.size(); ++id) ++all[side(id)];
         for (const SurfaceHit& each : hits) ++hit[side(each.triangle)];

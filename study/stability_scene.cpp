@@ -81,7 +81,7 @@ StabilityCase scene_case(const SceneSource& source) {
     const auto triangles = std::make_shared<const SceneTriangles>(load_scene(source).mesh);
     if (triangles->empty()) throw Error("{}: expected a triangle that has area", source.name());
     StabilityCase result{
-        23, "scene", "triangles of " + source.name(), "the crossings of exact arithmetic", {}};
+        25, "scene", "triangles of " + source.name(), "the crossings of exact arithmetic", {}};
     constexpr std::array<std::pair<const char*, Target>, 4> targets{{{"inside", Target::Inside},
                                                                      {"edge", Target::Edge},
                                                                      {"vertex", Target::Vertex},

@@ -39,10 +39,6 @@ StabilityCase shared_edge() {
     for (const char* name : {"cube", "box_grid", "ball"}) {
         result.settings.push_back(on_mesh(name, name, {}, Aim::EdgeMiddle));
     }
-    for (const float ulps : {0.0F, 0.5F, 1.0F, 2.0F, 4.0F, 16.0F, 64.0F, 256.0F, 1024.0F}) {
-        result.settings.push_back({fmt::format("{} ulps off", ulps), "beside_edge",
-                                   [=] { return triangle_experiment(probe_beside_edge(ulps)); }});
-    }
     return result;
 }
 

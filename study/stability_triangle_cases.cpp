@@ -155,6 +155,20 @@ StabilityCase not_finite() {
     return result;
 }
 
+// The chance of a wrong decision by the distance from the edge, for which the other cases have the largest
+// only.
+StabilityCase beside_edge() {
+    StabilityCase result{24,
+                         "beside_edge",
+                         "rays a few units in the last place from an edge",
+                         "the decision of exact arithmetic",
+                         {}};
+    for (const float ulps : {0.0F, 0.5F, 1.0F, 2.0F, 4.0F, 16.0F, 64.0F, 256.0F, 1024.0F}) {
+        result.settings.push_back(on_triangle(fmt::format("{} ulps", ulps), "edge", probe_beside_edge(ulps)));
+    }
+    return result;
+}
+
 // Not a way to fail: what ordinary rays get, to which the other cases compare.
 StabilityCase ordinary() {
     StabilityCase result{
@@ -171,8 +185,8 @@ StabilityCase ordinary() {
 }  // namespace
 
 std::vector<StabilityCase> triangle_cases() {
-    return {ordinary(), grazing(),   slivers(),          degenerate(), tiny(),
-            huge(),     scale_mix(), direction_length(), t_range(),    not_finite()};
+    return {ordinary(),  grazing(),          slivers(), degenerate(), tiny(),       huge(),
+            scale_mix(), direction_length(), t_range(), not_finite(), beside_edge()};
 }
 
 }  // namespace rtu::study

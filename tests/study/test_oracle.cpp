@@ -28,6 +28,10 @@ float wild_number(Random& random) {
     return std::ldexp(random.uniform(-1, 1), int(random.below(270)) - 145);
 }
 float tame_number(Random& random) { return std::ldexp(random.uniform(-1, 1), int(random.below(40)) - 20); }
+// About as far apart as 256-bit integers can hold, and a little farther.
+float wide_number(Random& random) {
+    return std::ldexp(random.uniform(-1, 1), random.below(3) == 0 ? -int(random.below(80)) : 0);
+}
 float grid_number(Random& random) { return float(int(random.below(7)) - 3); }
 
 template <class Number>
@@ -105,12 +109,14 @@ TEST_P(OracleProbes, DecidesAsRationalsDo) {
 }
 
 Probe of_all_sizes(Random& random) { return anything(random, wild_number); }
+Probe wide(Random& random) { return anything(random, wide_number); }
 Probe tame(Random& random) { return anything(random, tame_number); }
 Probe on_a_grid(Random& random) { return anything(random, grid_number); }
 
 INSTANTIATE_TEST_SUITE_P(All, OracleProbes,
-                         testing::Values(ProbeKind{"OfAllSizes", of_all_sizes}, ProbeKind{"Tame", tame},
-                                         ProbeKind{"OnAGrid", on_a_grid}, ProbeKind{"Aimed", aimed}),
+                         testing::Values(ProbeKind{"OfAllSizes", of_all_sizes}, ProbeKind{"Wide", wide},
+                                         ProbeKind{"Tame", tame}, ProbeKind{"OnAGrid", on_a_grid},
+                                         ProbeKind{"Aimed", aimed}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Oracle, UsesEveryArithmetic) {

@@ -164,7 +164,17 @@ TEST(Stability, CountsLeaksDoublesAndParityByRay) {
     EXPECT_EQ(open.false_misses, 0U);  // no triangle is met inside
 }
 
-// A quarter of the rays take a neighbour that they touch instead of the owner: nothing leaks.
+// Three hits of one crossing: parity is right, the net crossing is not.
+TEST(Stability, CountsADoubleHitThatParityDoesNotShow) {
+    const auto surface = placed_surface(closed_mesh("tetrahedron").make(), {});
+    const auto at_vertices = surface_experiment(surface, rays_at(surface, 0.5F, {}, Aim::Vertex));
+    const Tally closed = tally_of(*at_vertices, inclusive);
+    EXPECT_EQ(closed.hits, 3 * closed.rays);
+    EXPECT_EQ(closed.doubles, closed.rays);
+    EXPECT_EQ(closed.parity_errors, 0U);
+}
+
+// All rays hit the neighbour that they touch instead of the owner: nothing leaks.
 TEST(Stability, TellsAWrongOwnerFromALeak) {
     const auto two = fan_experiment(
         [](RandomStream& random) {

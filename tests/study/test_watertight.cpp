@@ -65,12 +65,12 @@ TEST_P(TenMillionRays, CrossAClosedMeshOnceWithWoopTopLeft) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TenMillionRays,
-                         testing::Values(Goal{"tetrahedron", 3'000'000}, Goal{"flat_tetrahedron", 3'000'000},
+                         testing::Values(Goal{"tetrahedron", 3'100'000}, Goal{"flat_tetrahedron", 3'000'000},
                                          Goal{"cube", 2'000'000}, Goal{"fan_16", 900'000},
                                          Goal{"needles", 250'000}, Goal{"fan_128", 120'000},
                                          Goal{"box_grid", 170'000}, Goal{"ball", 150'000},
                                          Goal{"icosphere", 100'000}, Goal{"spiky", 100'000},
-                                         Goal{"coral", 100'000}, Goal{"torus", 100'000},
+                                         Goal{"coral", 100'000}, Goal{"torus", 40'000},
                                          Goal{"fan_1024", 10'000}),
                          [](const auto& test) { return std::string(test.param.mesh); });
 
@@ -109,7 +109,8 @@ TEST(Watertight, TheMachineAndWoopTopLeftIgnoreWhatIsNoTriangle) {
     for (const StabilityRow& row : report_of({"not_finite"}, {"rtu", "exact", "woop_top_left"}, 2'000).rows) {
         EXPECT_EQ(row.tally.hits, 0U) << row.method << ", " << row.parameter;
     }
-    for (const StabilityRow& row : report_of({"degenerate"}, {"rtu", "exact"}, 2'000).rows) {
+    for (const StabilityRow& row : report_of({"degenerate"}, {"rtu", "exact", "woop_top_left"}, 2'000).rows) {
+        if (row.parameter == "nearly on a line" && row.method == "woop_top_left") continue;  // has area
         EXPECT_EQ(row.tally.false_hits, 0U) << row.method << ", " << row.parameter;
     }
 }
