@@ -15,6 +15,7 @@
 #include "apps/pairing_command.hpp"
 #include "apps/run_command.hpp"
 #include "apps/standard_output.hpp"
+#include "apps/trace_command.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
 #include "study/version.hpp"
@@ -31,6 +32,7 @@ constexpr const char* footer =
     "  rtusim run                              the built-in scene on the default machine\n"
     "  rtusim run bunny.glb --check            a glTF file, every hit verified\n"
     "  rtusim run --help                       all options of a run\n"
+    "  rtusim trace --help                     record, replay and convert rays\n"
     "  rtusim pairing bunny.glb                what triangle pairing does to the hardware\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
@@ -38,8 +40,9 @@ constexpr const char* footer =
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (!app.get_subcommands().empty()) return error.what();
     const std::vector<std::string> rest = app.remaining();
-    return rest.empty() ? "expected a command, run, pairing or config"
-                        : fmt::format("expected a command, run, pairing or config, got '{}'", rest.front());
+    return rest.empty()
+               ? "expected a command, run, trace, pairing or config"
+               : fmt::format("expected a command, run, trace, pairing or config, got '{}'", rest.front());
 }
 
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -76,6 +79,7 @@ int run_cli(int argc, char** argv) {
     app.require_subcommand(1);
     std::function<int()> command;
     add_run_command(app, command);
+    add_trace_command(app, command);
     add_pairing_command(app, command);
     add_config_command(app, command);
     return guarded([&] {

@@ -51,6 +51,17 @@ void check_scene(const traces::TraceHeader& header, const RayInput& input, const
     }
 }
 
+// What a run with this file cannot do, before anything is loaded.
+void check_wishes(const traces::TraceHeader& header, const RunOptions& options) {
+    const std::string file = options.rays->file.string();
+    if (options.is_checked && header.content == traces::TraceContent::Visits) {
+        throw Error("{}: --check needs rays, and a traversal trace has none", file);
+    }
+    if (options.wants_pixels && !header.picture) {
+        throw Error("{}: --image needs a camera, and these rays come without", file);
+    }
+}
+
 void take_picture(const traces::TraceHeader& header, SceneReport& report) {
     const traces::PictureFacts picture = header.picture.value_or(traces::PictureFacts{{0, 0}, {}, "none", 0});
     report.resolution = picture.resolution;
@@ -65,7 +76,10 @@ std::unique_ptr<PreparedScene> prepare_scene(const RunOptions& options, const Sc
     auto scene = std::make_unique<PreparedScene>();
     SceneReport& report = scene->report = described(options);
     std::optional<traces::TraceHeader> header;
-    if (options.rays) header = read_header(*options.rays);
+    if (options.rays) {
+        header = read_header(*options.rays);
+        check_wishes(*header, options);
+    }
     tell(options, "loading " + source.name());
     scene->loaded = load_scene(source);
     const model::TriangleMesh& mesh = scene->loaded.mesh;

@@ -31,7 +31,7 @@ bool is_special(const fs::path& path) {
 
 }  // namespace
 
-PartialFile::PartialFile(const fs::path& path, OnFullDisk on_full_disk)
+PartialFile::PartialFile(const fs::path& path, OnFullDisk on_full_disk, std::string_view suffix)
     : path_(path), on_full_disk_(on_full_disk) {
     std::error_code error;
     if (!path.has_filename()) throw Error("'{}': cannot write: not the name of a file", path.string());
@@ -40,15 +40,15 @@ PartialFile::PartialFile(const fs::path& path, OnFullDisk on_full_disk)
         descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     } else {
         target_ = resolved(path);
-        partial_ = fs::path(target_).concat(".partial");
+        partial_ = fs::path(target_).concat(suffix);
         descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }
     if (descriptor_ >= 0) return;
     if (errno != EEXIST) throw Error("{}: cannot write: {}", path.string(), message(errno));
     throw Error(
-        "{}.partial: is there already: another process writes it, or was interrupted (save its content with "
-        "`rtusim trace verify --recover`, or remove it)",
-        path.string());
+        "{}: is there already: another process writes it, or was interrupted (save its content with `rtusim "
+        "trace verify --recover`, or remove it)",
+        partial_.string());
 }
 
 PartialFile::~PartialFile() {
@@ -65,10 +65,10 @@ void PartialFile::fail(std::uint64_t offset) {
         descriptor_ = -1;  // and so it stays
     }
     throw Error("{}: byte {}: cannot write: {}{}", path_.string(), offset, why,
-                is_kept ? fmt::format("; {}.partial holds what was written before (see `rtusim trace verify "
-                                      "--recover`)",
-                                      path_.filename().string())
-                        : "");
+                is_kept
+                    ? fmt::format("; {} holds what was written before (see `rtusim trace verify --recover`)",
+                                  partial_.filename().string())
+                    : "");
 }
 
 void PartialFile::write(std::string_view bytes) {

@@ -18,7 +18,9 @@ class PartialFile {
     /// What becomes of FILE.partial when a write fails.
     enum class OnFullDisk : std::uint8_t { Keep, Remove };
 
-    PartialFile(const std::filesystem::path& path, OnFullDisk on_full_disk);
+    /// `suffix` is for who reads FILE.partial while writing FILE.
+    PartialFile(const std::filesystem::path& path, OnFullDisk on_full_disk,
+                std::string_view suffix = ".partial");
     PartialFile(const PartialFile&) = delete;
     PartialFile& operator=(const PartialFile&) = delete;
     ~PartialFile();

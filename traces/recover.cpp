@@ -141,7 +141,7 @@ Recovery recover_trace(const fs::path& path, const fs::path& output) {
     Recovery recovery{{}, facts.expected, facts.header.has_value()};
     TraceHeader header = facts.header.value_or(header_of_rays("unknown"));
     header.generator += ", recovered";
-    TraceWriter writer(output, header);
+    TraceWriter writer(output, header, ".recovered.partial");  // FILE.partial may be what is read
     for (const FoundBlock& block : blocks) {
         if (block.frame.kind == BlockKind::Rays && header.content == TraceContent::Rays) {
             writer.add(decode_ray_chunk(scanner.payload(block)));

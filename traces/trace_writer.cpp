@@ -13,8 +13,9 @@ constexpr std::size_t rays_of_chunk = 1 << 14;
 
 }  // namespace
 
-TraceWriter::TraceWriter(const std::filesystem::path& path, TraceHeader header)
-    : file_(path, PartialFile::OnFullDisk::Keep), header_(std::move(header)) {
+TraceWriter::TraceWriter(const std::filesystem::path& path, TraceHeader header,
+                         std::string_view partial_suffix)
+    : file_(path, PartialFile::OnFullDisk::Keep, partial_suffix), header_(std::move(header)) {
     file_.write(preamble());
     write_block(BlockKind::Header, encode(header_));
 }

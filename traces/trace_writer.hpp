@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 #include "traces/block.hpp"
 #include "traces/partial_file.hpp"
@@ -17,7 +18,9 @@ namespace rtu::traces {
 /// file, see PartialFile. All functions throw Error when the file cannot be written.
 class TraceWriter {
   public:
-    TraceWriter(const std::filesystem::path& path, TraceHeader header);
+    /// `partial_suffix`: see PartialFile.
+    TraceWriter(const std::filesystem::path& path, TraceHeader header,
+                std::string_view partial_suffix = ".partial");
 
     /// More rays; RayChunk::first_ray is not asked for. Requires a header of rays. Throws Error for a
     /// workload that comes again after another or changes its kind.
