@@ -22,11 +22,13 @@ fs::path resolved(const fs::path& path) {
     return target.empty() ? path : target;
 }
 
-// Pipes and devices cannot be replaced by renaming; /dev/stdout must not be, even where it leads to a file.
+// Pipes and devices cannot be replaced by renaming; /dev/stdout and the like must not be, even where they
+// lead to a file. Other files below /dev, as in /dev/shm, are files like any.
 bool is_special(const fs::path& path) {
     std::error_code error;
     if (!fs::exists(path, error)) return false;
-    return !fs::is_regular_file(path, error) || path.lexically_normal().string().starts_with("/dev/");
+    const std::string name = path.lexically_normal().string();
+    return !fs::is_regular_file(path, error) || name.starts_with("/dev/std") || name.starts_with("/dev/fd/");
 }
 
 }  // namespace
