@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <csignal>
+#include <sstream>
 
 #include "tests/apps/command_line.hpp"
 #include "tests/scenes.hpp"
@@ -40,6 +42,10 @@ class TraceCommand : public CommandLine {
         EXPECT_EQ(json["rays_file"], file);
         json.erase("rays_file");
         return json;
+    }
+    // What the rays of a file take in the built-in scene.
+    Json replay_total(const std::string& file) const {
+        return Json::parse(trace({"replay", file, "--json", "-"}))["total"];
     }
     // Exit code 1 and one line that holds `text`; no new file.
     void expect_fault(std::vector<std::string> arguments, const std::string& text) const {
@@ -288,6 +294,29 @@ TEST_F(TraceCommand, RaysOfAnotherSimulatorPassTheCheck) {
     EXPECT_EQ(json["check"]["compared"], 65536);
     EXPECT_EQ(json["check"]["mismatches"], 0);
     EXPECT_EQ(json["check"]["embree_mismatches"], 0);
+}
+
+// Runs the commands of traces/samples/README.md and compares what they make with what is there.
+TEST_F(TraceCommand, SamplesAreMadeByTheirCommands) {
+    const std::filesystem::path samples = std::string(RTUSIM_SOURCE_DIR) + "/traces/samples";
+    std::istringstream lines(read_file(samples / "README.md"));
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("    rtusim trace ")) continue;
+        const ProcessResult result = shell("$RTUSIM" + line.substr(std::string("    rtusim").size()));
+        EXPECT_EQ(result.exit_code, 0) << line << ": " << result.err;
+    }
+    const bool has_same_zstd = std::string(ZSTD_versionString()) == "1.5.4";
+    std::size_t compared = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(samples)) {
+        const std::string name = entry.path().filename();
+        if (name == "README.md") continue;
+        ++compared;
+        const bool is_compressed = entry.path().extension() == ".rtutrace";
+        EXPECT_TRUE((is_compressed && !has_same_zstd) || read_file(entry.path()) == content(name)) << name;
+        if (!is_compressed) continue;
+        EXPECT_EQ(replay_total(entry.path()), replay_total(name)) << name;
+    }
+    EXPECT_GE(compared, 6U);
 }
 
 }  // namespace
