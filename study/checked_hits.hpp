@@ -17,10 +17,8 @@ class CheckedHits {
     CheckedHits(const std::string& workload, model::RayKind kind, HitChecker* checker)
         : checker_(checker), batch_{workload, kind, {}, {}} {}
 
-    /// A ray that enters the machine.
-    void add_ray(const model::Ray& ray) {
-        if (checker_ != nullptr) rays_.push_back(ray);
-    }
+    /// A ray that enters the machine; needed only with a checker.
+    void add_ray(const model::Ray& ray) { rays_.push_back(ray); }
     /// The hit of the first ray whose hit was not told yet.
     void add_hit(const std::optional<model::Hit>& hit);
     /// Checks the rest; returns the reference traversal's counts of all rays.

@@ -51,7 +51,8 @@ void run_workload(WorkloadStream& rays, const model::MemoryImage& image, const R
                   HitChecker* checker, SceneReport& scene) {
     const std::string name = rays.name();
     CheckedHits hits(name, rays.kind(), checker);
-    TeeSupply supply(rays, hits);
+    TeeSupply tee(rays, hits);
+    sim::RaySupply& supply = checker != nullptr ? static_cast<sim::RaySupply&>(tee) : rays;
     const double start = cpu_seconds() - rays.cpu_seconds();
     const sim::MachineResult result = sim::simulate(
         options.config, image, supply, rays.kind(),
