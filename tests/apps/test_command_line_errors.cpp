@@ -60,8 +60,9 @@ TEST_F(CommandLineErrors, WrongUsageIsExitCodeTwo) {
 }
 
 TEST_F(CommandLineErrors, AnUnknownCommandIsNamed) {
-    EXPECT_THAT(run({"fly"}).err, HasSubstr("expected a command, run, trace, pairing or config, got 'fly'"));
-    EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, trace, pairing or config ("));
+    EXPECT_THAT(run({"fly"}).err,
+                HasSubstr("expected a command, run, trace, pairing, methods or config, got 'fly'"));
+    EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, trace, pairing, methods or config ("));
 }
 
 TEST_F(CommandLineErrors, BadValuesAreNamedInOneLine) {
