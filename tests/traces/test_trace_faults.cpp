@@ -178,6 +178,15 @@ TEST_F(TraceFaults, CountsThatLieAreFound) {
                 HasSubstr("expected a chunk of the header's content"));
 }
 
+TEST_F(TraceFaults, BlocksThatAreMissingOrInAnotherOrderAreFound) {
+    const std::vector<std::size_t> at = block_offsets();
+    const std::string first = good_.substr(at[1], at[2] - at[1]), second = good_.substr(at[2], at[3] - at[2]);
+    EXPECT_THAT(fault(good_.substr(0, at[1]) + second + first + good_.substr(at[3])),
+                HasSubstr(fmt::format("byte {}: expected block 1, got block 2", at[1])));
+    EXPECT_THAT(fault(good_.substr(0, at[2]) + good_.substr(at[3])),
+                HasSubstr(fmt::format("byte {}: expected block 2, got block 3", at[2])));
+}
+
 TEST_F(TraceFaults, AFullDeviceIsNamedWithItsOffset) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
     EXPECT_THAT(error_of([&] { write_trace("/dev/full", chunks_); }),
