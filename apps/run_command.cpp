@@ -94,7 +94,7 @@ void add_run_command(CLI::App& app, std::function<int()>& command) {
             ->check(is_not_empty());
     add_tree_options(*run_app, *arguments);
     add_picture_options(*run_app, *arguments, rays);
-    add_ray_input_options(*run_app, *arguments);
+    add_ray_input_options(*run_app, *arguments, rays);
     add_machine_options(*run_app, arguments->machine);
     add_output_options(*run_app, *arguments);
     add_host_options(*run_app, *arguments);

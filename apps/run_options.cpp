@@ -37,16 +37,21 @@ void add_picture_options(CLI::App& run, RunArguments& arguments, CLI::Option* ra
         ->capture_default_str();
 }
 
-void add_ray_input_options(CLI::App& command, RunArguments& arguments) {
-    command
-        .add_option("--format", arguments.rays_format,
-                    "of the rays: trace, rays7, rays8, csv, jsonl, npy; default: by content or extension")
-        ->type_name("NAME");
-    command
-        .add_option("--kind", arguments.ray_kind, "of rays whose file does not say: closest hit or any hit")
-        ->type_name("closest|any")
-        ->capture_default_str();
-    command.add_flag("--force", arguments.is_forced, "take a trace that was recorded on another scene");
+void add_ray_input_options(CLI::App& command, RunArguments& arguments, CLI::Option* rays) {
+    CLI::Option* format =
+        command
+            .add_option("--format", arguments.rays_format,
+                        "of the rays: trace, rays7, rays8, csv, jsonl, npy; default: by content or extension")
+            ->type_name("NAME");
+    CLI::Option* kind = command
+                            .add_option("--kind", arguments.ray_kind,
+                                        "of rays whose file does not say: closest hit or any hit")
+                            ->type_name("closest|any")
+                            ->capture_default_str();
+    CLI::Option* force =
+        command.add_flag("--force", arguments.is_forced, "take a trace that was recorded on another scene");
+    if (rays == nullptr) return;
+    for (CLI::Option* option : {format, kind, force}) option->needs(rays);
 }
 
 void add_output_options(CLI::App& run, RunArguments& arguments) {

@@ -12,8 +12,8 @@ namespace rtu::apps {
 void add_tree_options(CLI::App& command, RunArguments& arguments);
 /// --workload, --resolution, --camera, --seed; excluded by `rays` when that is not null.
 void add_picture_options(CLI::App& command, RunArguments& arguments, CLI::Option* rays);
-/// --kind, --format and --force, for rays from a file.
-void add_ray_input_options(CLI::App& command, RunArguments& arguments);
+/// --kind, --format and --force, for rays from a file; they need `rays` when that is not null.
+void add_ray_input_options(CLI::App& command, RunArguments& arguments, CLI::Option* rays);
 /// --json, --csv, --image, --check.
 void add_output_options(CLI::App& command, RunArguments& arguments);
 /// --threads.

@@ -87,7 +87,7 @@ void add_record(CLI::App& trace, std::function<int()>& command) {
                             ->check(is_not_empty());
     add_tree_options(*app, arguments->run);
     add_picture_options(*app, arguments->run, rays);
-    add_ray_input_options(*app, arguments->run);
+    add_ray_input_options(*app, arguments->run, rays);
     add_machine_options(*app, arguments->run.machine);
     add_thread_option(*app, arguments->run);
     app->callback([arguments, &command] {
@@ -108,7 +108,7 @@ void add_replay(CLI::App& trace, std::function<int()>& command) {
     app->add_option("SCENE", arguments->scenes, "glTF 2.0 file (.gltf, .glb); none: the built-in scene")
         ->expected(0, 1)
         ->type_name("");
-    add_ray_input_options(*app, *arguments);
+    add_ray_input_options(*app, *arguments, nullptr);
     add_tree_options(*app, *arguments);
     add_machine_options(*app, arguments->machine);
     add_output_options(*app, *arguments);

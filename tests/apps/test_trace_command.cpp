@@ -73,6 +73,7 @@ TEST_F(TraceCommand, EveryHelpTeaches) {
     EXPECT_EQ(run({"trace"}).exit_code, 2);
     EXPECT_EQ(run({"trace", "replay"}).exit_code, 2);
     EXPECT_EQ(run({"run", "--rays", "a.rays7", "--seed", "2"}).exit_code, 2);
+    EXPECT_EQ(run({"run", "--kind", "any"}).exit_code, 2);
 }
 
 TEST_F(TraceCommand, AReplayGivesTheReportOfTheRun) {
