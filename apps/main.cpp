@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
@@ -19,6 +20,7 @@
 #include "apps/run_command.hpp"
 #include "apps/stability_command.hpp"
 #include "apps/standard_output.hpp"
+#include "apps/trace_command.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
 #include "study/version.hpp"
@@ -35,6 +37,7 @@ constexpr const char* footer =
     "  rtusim run                              the built-in scene on the default machine\n"
     "  rtusim run bunny.glb --check            a glTF file, every hit verified\n"
     "  rtusim run --help                       all options of a run\n"
+    "  rtusim trace --help                     record, replay and convert rays\n"
     "  rtusim pairing bunny.glb                what triangle pairing does to the hardware\n"
     "  rtusim methods                          how fast each ray-triangle test is on this host\n"
     "  rtusim stability                        where ray-triangle methods fail, against exact arithmetic\n"
@@ -46,11 +49,13 @@ constexpr const char* footer =
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (!app.get_subcommands().empty()) return error.what();
     const std::vector<std::string> rest = app.remaining();
-    return rest.empty() ? "expected a command, run, pairing, methods, stability, precision, chart or config"
-                        : fmt::format(
-                              "expected a command, run, pairing, methods, stability, precision, chart or "
-                              "config, got '{}'",
-                              rest.front());
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    const std::string last = names.back();
+    names.pop_back();
+    const std::string expected = fmt::format("expected a command, {} or {}", fmt::join(names, ", "), last);
+    return rest.empty() ? expected : fmt::format("{}, got '{}'", expected, rest.front());
 }
 
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -87,6 +92,7 @@ int run_cli(int argc, char** argv) {
     app.require_subcommand(1);
     std::function<int()> command;
     add_run_command(app, command);
+    add_trace_command(app, command);
     add_pairing_command(app, command);
     add_methods_command(app, command);
     add_stability_command(app, command);

@@ -89,6 +89,17 @@ std::vector<study::SceneSource> parse_scenes(const std::vector<std::string>& nam
     return scenes;
 }
 
+study::RayInput parse_ray_input(const std::string& file, const std::string& format, const std::string& kind,
+                                bool is_forced) {
+    const model::RegularFile probe{file};  // throws for what is not there or no file
+    study::RayInput input;
+    input.file = file;
+    input.import.kind = traces::parse_ray_kind(kind);
+    input.format = format.empty() ? traces::format_of_input(file) : traces::parse_ray_format(format);
+    input.is_forced = is_forced;
+    return input;
+}
+
 bool is_same_file(const fs::path& a, const fs::path& b) {
     std::error_code error;
     if (fs::equivalent(a, b, error)) return true;

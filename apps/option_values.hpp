@@ -36,6 +36,10 @@ namespace rtu::apps {
 /// Every name must be a file that is there; without names, the built-in scene.
 [[nodiscard]] std::vector<study::SceneSource> parse_scenes(const std::vector<std::string>& names);
 
+/// A file of rays: it must be there, and its format known or given.
+[[nodiscard]] study::RayInput parse_ray_input(const std::string& file, const std::string& format,
+                                              const std::string& kind, bool is_forced);
+
 [[nodiscard]] bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Reads every scene's camera once, for its errors.

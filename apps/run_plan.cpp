@@ -52,10 +52,15 @@ RunPlan make_run_plan(const RunArguments& arguments) {
     options.wants_pixels = !arguments.image_folder.empty();
     options.camera_file = optional_path(arguments.camera);
 
+    if (!arguments.rays.empty()) {
+        options.rays =
+            parse_ray_input(arguments.rays, arguments.rays_format, arguments.ray_kind, arguments.is_forced);
+    }
+
     plan.scenes = parse_scenes(arguments.scenes);
     check_cameras(options.camera_file, plan.scenes);
     for (const std::string& name : arguments.scenes) plan.inputs.emplace_back(name);
-    for (const std::string& name : {arguments.camera, arguments.machine.file}) {
+    for (const std::string& name : {arguments.camera, arguments.machine.file, arguments.rays}) {
         if (!name.empty()) plan.inputs.emplace_back(name);
     }
     plan.threads = arguments.threads;

@@ -20,6 +20,10 @@ struct RunArguments {
     std::string resolution = "256x256";
     std::string camera;
     std::string seed = "1";
+    std::string rays;         ///< a file of rays or visits
+    std::string rays_format;  ///< empty: by content or extension
+    std::string ray_kind = "closest";
+    bool is_forced = false;
     MachineOptions machine;
     std::string clock_mode = "fast";
     unsigned threads = 0;  ///< 0: all cores

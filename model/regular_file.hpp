@@ -14,6 +14,8 @@ class RegularFile {
     [[nodiscard]] std::uint64_t size_bytes() const { return size_bytes_; }
     /// Reads the next `size` bytes; throws Error when the file ends before.
     void read(void* bytes, std::uint64_t size);
+    /// The next read starts at `offset`, counted from the file's start.
+    void seek(std::uint64_t offset) { stream_.seekg(std::streamoff(offset)); }
 
   private:
     std::filesystem::path path_;

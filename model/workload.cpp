@@ -23,17 +23,6 @@ constexpr std::array<std::pair<WorkloadKind, std::string_view>, 5> kind_names{
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// What the rays of one workload are made from; shared by all pixels, read only.
-struct Setting {
-    const TriangleMesh& mesh;
-    const MemoryImage& image;
-    const Camera& camera;
-    Resolution resolution;
-    std::uint64_t seed;
-    Vec3 light;
-    float ao_distance;
-};
-
 // A point light to the upper right of the eye, half way to the first surface there and at most half of the
 // scene's diagonal away: in a room it stays in the room, and everywhere it lights some of what the camera
 // sees and not all.
@@ -46,12 +35,12 @@ Vec3 place_light(const MemoryImage& image, const Camera& camera) {
     return camera.eye + direction * (0.5F * (hit ? hit->t : limit));
 }
 
-Ray pixel_ray(const Setting& setting, std::uint32_t pixel) {
+Ray pixel_ray(const WorkloadSetting& setting, std::uint32_t pixel) {
     return camera_ray(setting.camera, setting.resolution, pixel % setting.resolution.width,
                       pixel / setting.resolution.width);
 }
 
-std::optional<Ray> random_ray(const Setting& setting, std::uint32_t pixel) {
+std::optional<Ray> random_ray(const WorkloadSetting& setting, std::uint32_t pixel) {
     RandomStream random(setting.seed, std::uint32_t(WorkloadKind::Random), pixel);
     const Vec3 from = sample_box(random, setting.image.bounds);
     const std::optional<Vec3> direction = direction_between(from, sample_box(random, setting.image.bounds));
@@ -59,7 +48,7 @@ std::optional<Ray> random_ray(const Setting& setting, std::uint32_t pixel) {
     return Ray{from, 0, *direction, infinity};
 }
 
-std::optional<Ray> secondary_ray(const Setting& setting, WorkloadKind kind, std::uint32_t pixel,
+std::optional<Ray> secondary_ray(const WorkloadSetting& setting, WorkloadKind kind, std::uint32_t pixel,
                                  const SurfacePoint& point) {
     if (kind == WorkloadKind::Shadow) {
         const std::optional<Vec3> direction = direction_between(point.origin, setting.light);
@@ -74,7 +63,7 @@ std::optional<Ray> secondary_ray(const Setting& setting, WorkloadKind kind, std:
     return ray;
 }
 
-std::optional<Ray> make_ray(const Setting& setting, WorkloadKind kind, std::uint32_t pixel,
+std::optional<Ray> make_ray(const WorkloadSetting& setting, WorkloadKind kind, std::uint32_t pixel,
                             TraversalStack& scratch) {
     if (kind == WorkloadKind::Random) return random_ray(setting, pixel);
     const Ray primary = pixel_ray(setting, pixel);
@@ -97,32 +86,44 @@ WorkloadKind parse_workload_kind(std::string_view text) {
 
 std::string_view to_string(WorkloadKind kind) { return kind_names[std::size_t(kind)].second; }
 
-Workload make_workload(WorkloadKind kind, const TriangleMesh& mesh, const MemoryImage& image,
-                       const Camera& camera, Resolution resolution, std::uint64_t seed) {
-    const Setting setting{mesh,
-                          image,
-                          camera,
-                          resolution,
-                          seed,
-                          place_light(image, camera),
-                          0.1F * distance_between(image.bounds.lo, image.bounds.hi)};
-    const std::uint32_t pixel_count = resolution.width * resolution.height;
+RayKind ray_kind(WorkloadKind kind) {
+    const bool is_any_hit = kind == WorkloadKind::Shadow || kind == WorkloadKind::AmbientOcclusion;
+    return is_any_hit ? RayKind::AnyHit : RayKind::ClosestHit;
+}
+
+WorkloadSetting::WorkloadSetting(const TriangleMesh& scene_mesh, const MemoryImage& scene_image,
+                                 const Camera& view, Resolution picture, std::uint64_t random_seed)
+    : mesh(scene_mesh),
+      image(scene_image),
+      camera(view),
+      resolution(picture),
+      seed(random_seed),
+      light(place_light(image, camera)),
+      ao_distance(0.1F * distance_between(image.bounds.lo, image.bounds.hi)) {}
+
+Workload make_workload(WorkloadKind kind, const WorkloadSetting& setting, std::uint32_t begin_pixel,
+                       std::uint32_t end_pixel) {
+    const std::uint32_t pixel_count = end_pixel - begin_pixel;
     std::vector<std::optional<Ray>> rays(pixel_count);
     for_each_range<std::uint32_t>(pixel_count, 256, [&](const auto& range) {
         TraversalStack scratch;
-        for (std::uint32_t pixel = range.begin(); pixel != range.end(); ++pixel) {
-            rays[pixel] = make_ray(setting, kind, pixel, scratch);
+        for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
+            rays[i] = make_ray(setting, kind, begin_pixel + i, scratch);
         }
     });
-    const bool is_any_hit = kind == WorkloadKind::Shadow || kind == WorkloadKind::AmbientOcclusion;
-    Workload workload{
-        std::string(to_string(kind)), is_any_hit ? RayKind::AnyHit : RayKind::ClosestHit, {}, {}};
-    for (std::uint32_t pixel = 0; pixel < pixel_count; ++pixel) {
-        if (!rays[pixel]) continue;
-        workload.rays.push_back(*rays[pixel]);
-        workload.pixels.push_back(pixel);
+    Workload workload{std::string(to_string(kind)), ray_kind(kind), {}, {}};
+    for (std::uint32_t i = 0; i < pixel_count; ++i) {
+        if (!rays[i]) continue;
+        workload.rays.push_back(*rays[i]);
+        workload.pixels.push_back(begin_pixel + i);
     }
     return workload;
+}
+
+Workload make_workload(WorkloadKind kind, const TriangleMesh& mesh, const MemoryImage& image,
+                       const Camera& camera, Resolution resolution, std::uint64_t seed) {
+    return make_workload(kind, WorkloadSetting(mesh, image, camera, resolution, seed), 0,
+                         resolution.width * resolution.height);
 }
 
 }  // namespace rtu::model

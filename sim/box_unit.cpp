@@ -5,10 +5,9 @@
 namespace rtu::sim {
 
 BoxUnit::BoxUnit(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu::Box& config,
-                 const model::MemoryImage& image, RaySlots& slots)
+                 RaySlots& slots)
     : ClockedUnit(name, domain),
       config_(config),
-      image_(image),
       slots_(slots),
       // Room for every node that can be on its way when each has one child only.
       pipeline_(config.latency_cycles, std::size_t(config.latency_cycles + 1) * config.boxes_per_cycle) {}
@@ -38,12 +37,12 @@ Activity BoxUnit::issue(Cycle now) {
     std::uint32_t free_lanes = config_.boxes_per_cycle;
     while (free_lanes > 0 && nodes_in->can_pop(now) && !pipeline_.is_full()) {
         const SlotToken token{nodes_in->front().tag};
-        model::Traversal& traversal = slots_[token.slot].traversal;
-        const std::uint32_t boxes = model::child_count(image_, traversal.current.ref);
+        RayWalk& walk = slots_[token.slot].walk;
+        const std::uint32_t boxes = walk.child_count();
         const bool has_all_lanes = free_lanes == config_.boxes_per_cycle;
         if (boxes > free_lanes && !has_all_lanes) break;
         nodes_in->pop(now);
-        model::visit_node(traversal, image_);
+        walk.visit_node();
         ++counters_.node_visits;
         counters_.box_tests += boxes;
         const std::uint32_t last_cycle = (boxes - 1) / config_.boxes_per_cycle;

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <string>
 
-#include "model/memory_image.hpp"
 #include "sim/clocked_unit.hpp"
 #include "sim/config.hpp"
 #include "sim/counters.hpp"
@@ -20,7 +19,7 @@ namespace rtu::sim {
 class BoxUnit final : public ClockedUnit {
   public:
     BoxUnit(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu::Box& config,
-            const model::MemoryImage& image, RaySlots& slots);
+            RaySlots& slots);
 
     sc_core::sc_port<Fifo<MemoryReply>> nodes_in{"nodes_in"};  ///< tag = slot
     sc_core::sc_port<Fifo<SlotToken>> results_out{"results_out"};
@@ -37,7 +36,6 @@ class BoxUnit final : public ClockedUnit {
     Activity issue(Cycle now);
 
     Config::Rtu::Box config_;
-    const model::MemoryImage& image_;
     RaySlots& slots_;
     Pipeline<SlotToken> pipeline_;
     Cycle lanes_free_at_ = 0;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "model/error.hpp"
@@ -42,7 +43,7 @@ class Fifo final : public sc_core::sc_object, public PushIf<T> {
             head_at_start_ = head_;
         }
         domain_.note_pop();
-        return items_[head_++ & mask_];
+        return std::move(items_[head_++ & mask_]);
     }
 
     [[nodiscard]] bool can_push(Cycle now) const override {

@@ -1,31 +1,42 @@
 #include "sim/hit_sink.hpp"
 
+#include <utility>
+
+#include "model/error.hpp"
+
 namespace rtu::sim {
 
-HitSink::HitSink(sc_core::sc_module_name name, ClockDomain& domain, std::uint32_t ray_count,
+HitSink::HitSink(sc_core::sc_module_name name, ClockDomain& domain, HitConsumer consumer,
                  std::uint32_t rtu_count)
-    : ClockedUnit(name, domain),
-      hits_in("hits_in", rtu_count),
-      hits_(ray_count),
-      is_received_(ray_count, false) {}
+    : ClockedUnit(name, domain), hits_in("hits_in", rtu_count), consumer_(std::move(consumer)) {}
 
 std::string HitSink::describe() const {
-    return fmt::format("{} of {} rays returned", received_, is_received_.size());
+    return fmt::format("{} rays returned, the first {} of them without a gap", received_, next_);
 }
 
 Activity HitSink::tick(Cycle now) {
     Activity activity = Activity::Waiting;
     for (auto& port : hits_in) {
         while (port->can_pop(now)) {
-            const HitMessage message = port->pop(now);
-            RTU_CHECK(!is_received_[message.ray_index], "ray {} was returned twice", message.ray_index);
-            is_received_[message.ray_index] = true;
-            if (message.has_hit) hits_[message.ray_index] = message.hit;
-            ++received_;
+            take(port->pop(now));
             activity = Activity::Busy;
         }
     }
     return activity;
+}
+
+void HitSink::take(const HitMessage& message) {
+    const bool is_new = message.ray_index >= next_;
+    const std::size_t place = message.ray_index - next_;
+    RTU_CHECK(is_new && (place >= waiting_.size() || !waiting_[place]), "ray {} was returned twice",
+              message.ray_index);
+    if (place >= waiting_.size()) waiting_.resize(place + 1);
+    waiting_[place] = message;
+    ++received_;
+    for (; !waiting_.empty() && waiting_.front(); ++next_) {
+        consumer_(waiting_.front()->hit);
+        waiting_.pop_front();
+    }
 }
 
 }  // namespace rtu::sim

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "sim/clocked_unit.hpp"
 #include "sim/fifo.hpp"
@@ -12,18 +12,19 @@
 
 namespace rtu::sim {
 
-/// Takes every finished ray at once, and keeps its hit.
+/// Told the hit of each ray, in the order of the rays.
+using HitConsumer = std::function<void(const std::optional<model::Hit>& hit)>;
+
+/// Takes every finished ray at once, and hands the hits on in the order of the rays. Holds only the hits of
+/// rays that have overtaken one that is still under way.
 class HitSink final : public ClockedUnit {
   public:
-    HitSink(sc_core::sc_module_name name, ClockDomain& domain, std::uint32_t ray_count,
-            std::uint32_t rtu_count);
+    HitSink(sc_core::sc_module_name name, ClockDomain& domain, HitConsumer consumer, std::uint32_t rtu_count);
 
     sc_core::sc_vector<sc_core::sc_port<Fifo<HitMessage>>> hits_in;  ///< [rtu_count]
 
-    [[nodiscard]] bool is_done() const { return received_ == is_received_.size(); }
-    [[nodiscard]] std::size_t received() const { return received_; }
-    /// The hits [ray_count], once all have come.
-    [[nodiscard]] std::vector<std::optional<model::Hit>> take_hits() { return std::move(hits_); }
+    /// Rays returned.
+    [[nodiscard]] std::uint64_t received() const { return received_; }
     [[nodiscard]] Cycle next_event(Cycle) const override { return no_cycle; }
     [[nodiscard]] std::string describe() const override;
 
@@ -31,9 +32,12 @@ class HitSink final : public ClockedUnit {
     Activity tick(Cycle now) override;
 
   private:
-    std::vector<std::optional<model::Hit>> hits_;
-    std::vector<bool> is_received_;
-    std::size_t received_ = 0;
+    void take(const HitMessage& message);
+
+    HitConsumer consumer_;
+    std::deque<std::optional<HitMessage>> waiting_;  // of the rays from `next_` on
+    std::uint32_t next_ = 0;                         // the ray whose hit is handed on next
+    std::uint64_t received_ = 0;
 };
 
 }  // namespace rtu::sim

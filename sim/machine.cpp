@@ -1,12 +1,10 @@
 #include "sim/machine.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <utility>
 
 #include "sim/dram.hpp"
-#include "sim/hit_sink.hpp"
 #include "sim/kernel.hpp"
 #include "sim/memory_boundary.hpp"
 #include "sim/memory_counters.hpp"
@@ -40,21 +38,18 @@ std::vector<CounterValue> values(const std::array<CounterRow<Counters>, N>& rows
 // All RTUs, the memory that they share, and the two ends that rays come from and go to.
 class Machine {
   public:
-    Machine(const Config& config, const model::MemoryImage& image, std::span<const model::Ray> rays,
-            model::RayKind kind, ClockMode mode)
+    Machine(const Config& config, const model::MemoryImage& image, RaySupply& rays, model::RayKind kind,
+            const HitConsumer& on_hit, ClockMode mode)
         : config_(config),
-          ray_count_(rays.size()),
           domain_("domain", mode, config.watchdog_cycles),
-          source_("ray_source", domain_, std::uint32_t(rays.size()), config.host.rays_per_cycle,
-                  config.rtu.count),
-          sink_("hit_sink", domain_, std::uint32_t(rays.size()), config.rtu.count),
+          source_("ray_source", domain_, rays, config.host.rays_per_cycle, config.rtu.count),
+          sink_("hit_sink", domain_, on_hit, config.rtu.count),
           l2_("l2", domain_, config.l2, config.rtu.count, config.rtu.count, 0),
           dram_("dram", domain_, config.dram, config.l2.line_bytes),
           dram_requests_("dram_requests", dram_request_depth, domain_),
           dram_replies_("dram_replies", config.l2.mshrs, domain_) {
         for (std::uint32_t i = 0; i < config.rtu.count; ++i) {
-            add_rtu(i, {image, rays, kind, stack_region(config, image, i)},
-                    std::as_bytes(std::span(image.blocks)));
+            add_rtu(i, {image, kind, stack_region(config, image, i)}, std::as_bytes(std::span(image.blocks)));
         }
         l2_.below_out(dram_requests_);
         l2_.fills_in(dram_replies_);
@@ -65,13 +60,14 @@ class Machine {
     MachineResult run(const SimulationProgress& progress) {
         MachineResult result;
         const auto tell = [&] {
-            if (progress) progress(double(sink_.received()) / double(ray_count_));
+            if (progress) progress(source_.share());
         };
-        // The sink cannot be done before its first cycle, so a workload without rays gets none.
-        if (ray_count_ > 0) result.cycles = domain_.run([this] { return sink_.is_done(); }, tell);
+        // The run cannot end before its first cycle, so a workload without rays gets none.
+        const auto is_done = [this] { return source_.is_done() && sink_.received() == source_.ray_count(); };
+        if (!source_.is_done()) result.cycles = domain_.run(is_done, tell);
+        result.ray_count = source_.ray_count();
         collect(result);
         check(result);
-        result.hits = sink_.take_hits();
         return result;
     }
 
@@ -130,7 +126,8 @@ class Machine {
             node->rtu.check_drained();
             finished += node->rtu.scheduler.counters().rays_finished;
         }
-        RTU_CHECK(finished == ray_count_, "{} rays in, {} out", ray_count_, finished);
+        RTU_CHECK(finished == result.ray_count && sink_.received() == finished,
+                  "{} rays in, {} finished, {} out", result.ray_count, finished, sink_.received());
         l2_.check_drained();
         dram_.check_drained();
         for (const auto* units : {&result.units, &result.memory}) {
@@ -144,7 +141,6 @@ class Machine {
     static constexpr std::size_t dram_request_depth = 8;  // several L2 misses and write-backs a cycle
 
     const Config& config_;
-    std::size_t ray_count_;
     ClockDomain domain_;
     RaySource source_;
     HitSink sink_;
@@ -157,13 +153,23 @@ class Machine {
 
 }  // namespace
 
+MachineResult simulate(const Config& config, const model::MemoryImage& image, RaySupply& rays,
+                       model::RayKind kind, const HitConsumer& on_hit, ClockMode mode,
+                       const SimulationProgress& progress) {
+    start_fresh_kernel();
+    return Machine(config, image, rays, kind, on_hit, mode).run(progress);
+}
+
 MachineResult simulate(const Config& config, const model::MemoryImage& image,
                        std::span<const model::Ray> rays, model::RayKind kind, ClockMode mode,
                        const SimulationProgress& progress) {
-    RTU_CHECK(rays.size() < std::numeric_limits<std::uint32_t>::max(), "{} rays in one simulation",
-              rays.size());
-    start_fresh_kernel();
-    return Machine(config, image, rays, kind, mode).run(progress);
+    SpanSupply supply(rays);
+    std::vector<std::optional<model::Hit>> hits;
+    hits.reserve(rays.size());
+    MachineResult result = simulate(
+        config, image, supply, kind, [&hits](const auto& hit) { hits.push_back(hit); }, mode, progress);
+    result.hits = std::move(hits);
+    return result;
 }
 
 }  // namespace rtu::sim

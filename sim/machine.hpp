@@ -13,6 +13,8 @@
 #include "model/traversal.hpp"
 #include "sim/clock_domain.hpp"
 #include "sim/config.hpp"
+#include "sim/hit_sink.hpp"
+#include "sim/ray_supply.hpp"
 
 namespace rtu::sim {
 
@@ -32,8 +34,9 @@ struct UnitResult {
 
 /// What one simulation gives.
 struct MachineResult {
-    Cycle cycles = 0;                             ///< from the first ray accepted to the last hit returned
-    std::vector<std::optional<model::Hit>> hits;  ///< [ray_count]
+    Cycle cycles = 0;  ///< from the first ray accepted to the last hit returned
+    std::uint64_t ray_count = 0;
+    std::vector<std::optional<model::Hit>> hits;  ///< [ray_count], unless they went to a HitConsumer
     model::TraversalCounts counts;                ///< over all RTUs
     std::vector<UnitResult> units;                ///< ray source, each RTU's units, hit sink
     std::vector<UnitResult> memory;               ///< each RTU's L1, the L2, the DRAM
@@ -42,11 +45,18 @@ struct MachineResult {
 /// Told the share of the rays that have returned, now and then.
 using SimulationProgress = std::function<void(double share)>;
 
-/// Builds the machine, runs all rays through it, from cold caches, and checks that nothing was lost: rays in
-/// = rays out, fetches = tests, every unit's cycles sum to `cycles`, the RTUs' channels empty. Throws
-/// std::logic_error when one of these is broken or the machine stops making progress. `config` must be valid.
-/// At most 2^32 - 2 rays; without any, all cycles and counters are 0. Starts a new SystemC kernel:
-/// simulations of one process run one after another.
+/// Builds the machine, runs the rays of `rays` through it, from cold caches, and checks that nothing was
+/// lost: rays in = rays out, fetches = tests, every unit's cycles sum to `cycles`, the RTUs' channels empty.
+/// Throws std::logic_error when one of these is broken or the machine stops making progress. `config` must be
+/// valid. `on_hit` is told every hit, in the order of the rays; memory does not grow with their number. The
+/// image must be the one that recorded rays were recorded on. At most 2^32 - 2 rays; without any, all cycles
+/// and counters are 0. Starts a new SystemC kernel: simulations of one process run one after another.
+[[nodiscard]] MachineResult simulate(const Config& config, const model::MemoryImage& image, RaySupply& rays,
+                                     model::RayKind kind, const HitConsumer& on_hit,
+                                     ClockMode mode = ClockMode::Fast,
+                                     const SimulationProgress& progress = {});
+
+/// The same for rays in memory; the hits are in the result.
 [[nodiscard]] MachineResult simulate(const Config& config, const model::MemoryImage& image,
                                      std::span<const model::Ray> rays, model::RayKind kind,
                                      ClockMode mode = ClockMode::Fast,

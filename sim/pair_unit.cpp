@@ -5,8 +5,8 @@
 namespace rtu::sim {
 
 PairUnit::PairUnit(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu::Pair& config,
-                   const model::MemoryImage& image, RaySlots& slots)
-    : ClockedUnit(name, domain), config_(config), image_(image), slots_(slots) {
+                   RaySlots& slots)
+    : ClockedUnit(name, domain), config_(config), slots_(slots) {
     const std::size_t depth = config.latency_cycles / config.ii_cycles + 1;
     testers_.assign(config.testers, {0, Pipeline<SlotToken>(config.latency_cycles, depth)});
 }
@@ -64,9 +64,9 @@ void PairUnit::issue(Tester& tester, Cycle now) {
 // is held.
 std::uint32_t PairUnit::test_leaf(RaySlot& slot) {
     std::uint32_t held = 0;
-    const std::uint32_t pairs = slot.traversal.current.ref.pair_count();
-    for (std::uint32_t i = 0; i < pairs && !model::is_satisfied(slot.traversal); ++i) {
-        const model::PairVisit visit = model::visit_pair(slot.traversal, image_, i);
+    const std::uint32_t pairs = slot.walk.current().pair_count();
+    for (std::uint32_t i = 0; i < pairs && !slot.walk.is_satisfied(); ++i) {
+        const model::PairVisit visit = slot.walk.visit_pair(i);
         ++counters_.pair_tests;
         counters_.triangle_tests += visit.triangle_tests;
         counters_.exact_tests += visit.exact_tests;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "model/memory_image.hpp"
 #include "sim/clocked_unit.hpp"
 #include "sim/config.hpp"
 #include "sim/counters.hpp"
@@ -23,7 +22,7 @@ namespace rtu::sim {
 class PairUnit final : public ClockedUnit {
   public:
     PairUnit(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu::Pair& config,
-             const model::MemoryImage& image, RaySlots& slots);
+             RaySlots& slots);
 
     sc_core::sc_port<Fifo<MemoryReply>> leaves_in{"leaves_in"};  ///< tag = slot
     sc_core::sc_port<Fifo<SlotToken>> results_out{"results_out"};
@@ -46,7 +45,6 @@ class PairUnit final : public ClockedUnit {
     [[nodiscard]] std::uint32_t test_leaf(RaySlot& slot);
 
     Config::Rtu::Pair config_;
-    const model::MemoryImage& image_;
     RaySlots& slots_;
     std::vector<Tester> testers_;
     PairCounters counters_;

@@ -3,19 +3,17 @@
 #include <algorithm>
 
 #include "model/error.hpp"
-#include "model/traversal.hpp"
 
 namespace rtu::sim {
 
 RayScheduler::RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu& config,
-                           const model::MemoryImage& image, std::span<const model::Ray> rays,
-                           model::RayKind kind, RaySlots& slots, StackRegion region)
+                           const model::MemoryImage& image, model::RayKind kind, RaySlots& slots,
+                           StackRegion region)
     : ClockedUnit(name, domain),
       config_(config),
       spill_block_(std::min(spill_block_entries, config.stack_entries)),
       node_bytes_(model::MemoryImage::node_bytes(image.width)),
       image_(image),
-      rays_(rays),
       kind_(kind),
       slots_(slots),
       region_(region) {
@@ -82,9 +80,9 @@ bool RayScheduler::retire(Cycle now) {
 // Decides what a ray does next, once its last request has been worked on.
 void RayScheduler::advance(std::uint32_t slot, Cycle now) {
     RaySlot& ray = slots_[slot];
-    const bool is_satisfied = model::is_satisfied(ray.traversal);
-    if (!is_satisfied && model::pop(ray.traversal, ray.spilled)) {
-        while (ray.traversal.stack.size() - ray.spilled > config_.stack_entries) queue_spill(slot);
+    const bool is_satisfied = ray.walk.is_satisfied();
+    if (!is_satisfied && ray.walk.pop(ray.spilled)) {
+        while (ray.walk.stack_size() - ray.spilled > config_.stack_entries) queue_spill(slot);
         queue_fetch(slot);
     } else if (!is_satisfied && ray.spilled > 0) {
         queue_reload(slot);
@@ -95,14 +93,14 @@ void RayScheduler::advance(std::uint32_t slot, Cycle now) {
 
 void RayScheduler::finish(std::uint32_t slot, Cycle now) {
     const RaySlot& ray = slots_[slot];
-    hits_out->push(now, {ray.ray_index, ray.traversal.closest.is_found, ray.traversal.closest.hit});
+    hits_out->push(now, {ray.ray_index, ray.walk.hit()});
     ++counters_.rays_finished;
     counters_.slot_cycles += now - ray.accepted_cycle;
     free_slots_.push_back(slot);
 }
 
 void RayScheduler::queue_fetch(std::uint32_t slot) {
-    const model::NodeRef ref = slots_[slot].traversal.current.ref;
+    const model::NodeRef ref = slots_[slot].walk.current();
     const std::uint64_t bytes =
         ref.is_leaf() ? std::uint64_t(ref.pair_count()) * model::image_block_bytes : node_bytes_;
     const ReplyTo target = ref.is_leaf() ? ReplyTo::PairUnit : ReplyTo::BoxUnit;
@@ -147,11 +145,12 @@ bool RayScheduler::accept(Cycle now) {
     const std::uint32_t slot = free_slots_.back();
     free_slots_.pop_back();
     RaySlot& ray = slots_[slot];
-    ray.ray_index = rays_in->pop(now).ray_index;
+    const RayMessage message = rays_in->pop(now);
+    ray.ray_index = message.ray_index;
     ray.spilled = 0;
     ray.accepted_cycle = now;
     ++counters_.rays_accepted;
-    if (model::start(ray.traversal, image_, rays_[ray.ray_index], kind_)) {
+    if (ray.walk.start(image_, message.ray, kind_)) {
         queue_fetch(slot);
     } else {
         finish(slot, now);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -42,8 +41,7 @@ struct StackRegion {
 class RayScheduler final : public ClockedUnit {
   public:
     RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu& config,
-                 const model::MemoryImage& image, std::span<const model::Ray> rays, model::RayKind kind,
-                 RaySlots& slots, StackRegion region);
+                 const model::MemoryImage& image, model::RayKind kind, RaySlots& slots, StackRegion region);
 
     sc_core::sc_port<Fifo<RayMessage>> rays_in{"rays_in"};
     sc_core::sc_port<Fifo<SlotToken>> box_results_in{"box_results_in"};
@@ -80,7 +78,6 @@ class RayScheduler final : public ClockedUnit {
     std::uint32_t spill_block_;
     std::uint64_t node_bytes_;
     const model::MemoryImage& image_;
-    std::span<const model::Ray> rays_;
     model::RayKind kind_;
     RaySlots& slots_;
     StackRegion region_;

@@ -5,21 +5,22 @@
 #include <vector>
 
 #include "model/ray.hpp"
-#include "model/traversal.hpp"
 #include "sim/cycle.hpp"
+#include "sim/ray_supply.hpp"
+#include "sim/ray_walk.hpp"
 
 namespace rtu::sim {
 
-/// A ray on its way into an RTU: its index in the workload.
+/// A ray on its way into an RTU, and its index in the workload.
 struct RayMessage {
     std::uint32_t ray_index = 0;
+    SuppliedRay ray;
 };
 
 /// A finished ray on its way out.
 struct HitMessage {
     std::uint32_t ray_index = 0;
-    bool has_hit = false;
-    model::Hit hit;
+    std::optional<model::Hit> hit;
 };
 
 /// "The ray of this slot": travels through an RTU in place of the ray's state. Whichever unit holds a slot's
@@ -30,7 +31,7 @@ struct SlotToken {
 
 /// One ray under way.
 struct RaySlot {
-    model::Traversal traversal;
+    RayWalk walk;
     std::uint32_t ray_index = 0;
     std::size_t spilled = 0;  ///< lowest stack entries, that lie in memory
     Cycle accepted_cycle = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,15 +11,20 @@
 
 namespace rtu::sim {
 
-/// Hands the rays of a workload to the RTUs in order: up to `rays_per_cycle` a cycle, round robin over the
+/// Hands the rays of a supply to the RTUs in order: up to `rays_per_cycle` a cycle, round robin over the
 /// RTUs that have room, one ray an RTU and cycle.
 class RaySource final : public ClockedUnit {
   public:
-    RaySource(sc_core::sc_module_name name, ClockDomain& domain, std::uint32_t ray_count,
+    RaySource(sc_core::sc_module_name name, ClockDomain& domain, RaySupply& rays,
               std::uint32_t rays_per_cycle, std::uint32_t rtu_count);
 
     sc_core::sc_vector<sc_core::sc_port<Fifo<RayMessage>>> rays_out;  ///< [rtu_count]
 
+    /// Rays handed over.
+    [[nodiscard]] std::uint32_t ray_count() const { return ray_count_; }
+    /// True when no ray is left.
+    [[nodiscard]] bool is_done() const { return !next_ray_; }
+    [[nodiscard]] double share() const { return rays_.share(); }
     [[nodiscard]] Cycle next_event(Cycle now) const override;
     [[nodiscard]] std::string describe() const override;
 
@@ -26,9 +32,12 @@ class RaySource final : public ClockedUnit {
     Activity tick(Cycle now) override;
 
   private:
-    std::uint32_t ray_count_;
+    void take_next_ray();
+
+    RaySupply& rays_;
     std::uint32_t rays_per_cycle_;
-    std::uint32_t next_ray_ = 0;
+    std::optional<SuppliedRay> next_ray_;
+    std::uint32_t ray_count_ = 0;
     std::uint32_t next_rtu_ = 0;
 };
 

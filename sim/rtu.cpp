@@ -26,9 +26,9 @@ Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config
                    depth_for(std::max(config.rtu.box.boxes_per_cycle, config.rtu.results_per_cycle)), domain),
       pair_results_("pair_results",
                     depth_for(std::max(config.rtu.pair.testers, config.rtu.results_per_cycle)), domain),
-      scheduler("scheduler", domain, config.rtu, job.image, job.rays, job.kind, slots_, job.stacks),
-      box("box", domain, config.rtu.box, job.image, slots_),
-      pair("pair", domain, config.rtu.pair, job.image, slots_),
+      scheduler("scheduler", domain, config.rtu, job.image, job.kind, slots_, job.stacks),
+      box("box", domain, config.rtu.box, slots_),
+      pair("pair", domain, config.rtu.pair, slots_),
       l1("l1", domain, config.l1, 1, reply_channel_count, std::uint8_t(index)) {
     scheduler.rays_in(rays_in);
     scheduler.hits_out(hits_out);

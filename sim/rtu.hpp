@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <systemc>
 
 #include "model/memory_image.hpp"
@@ -17,10 +16,9 @@
 
 namespace rtu::sim {
 
-/// What an RTU works on: one image and one workload.
+/// What an RTU works on: one image and rays of one kind.
 struct RtuJob {
     const model::MemoryImage& image;
-    std::span<const model::Ray> rays;
     model::RayKind kind;
     StackRegion stacks;
 };

@@ -92,7 +92,9 @@ const WorkloadReport& PairingBench::simulated(model::PairingMethod method, const
         config, image, workload.rays, workload.ray_kind, sim::ClockMode::Fast, [&](double share) {
             tell(fmt::format("{}, {}: {:.0f} %", to_string(method), workload.name, share * 100));
         });
-    return reports_.emplace(key, workload_report(workload, result)).first->second;
+    const auto hit_count =
+        std::uint64_t(std::ranges::count_if(result.hits, [](const auto& hit) { return hit.has_value(); }));
+    return reports_.emplace(key, workload_report(workload.name, hit_count, result)).first->second;
 }
 
 PairingRun PairingBench::run(model::PairingMethod method, const PairingSetting& setting) {

@@ -1,6 +1,5 @@
 #include "study/pairing_study.hpp"
 
-#include "study/fingerprint.hpp"
 #include "study/version.hpp"
 
 namespace rtu::study {

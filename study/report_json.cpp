@@ -131,6 +131,7 @@ Json json(const CheckReport& check) {
 Json json(const SceneReport& report) {
     Json object = run(report);
     object.update(inputs(report));
+    if (report.rays_file) object["rays_file"] = *report.rays_file;
     object["config"] = config(report);
     object["workloads"] = workloads(report);
     object["total"] = counts(total(report), report.clock_mhz);

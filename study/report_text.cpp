@@ -18,14 +18,20 @@ std::string facts(const SceneReport& report) {
     const auto line = [&out](std::string_view label, const std::string& value) {
         out += fmt::format("  {:<9}{}\n", label, value);
     };
-    line("Run", fmt::format("rtusim {}, preset {}, seed {}, {} x {} pixels", report.version, report.preset,
-                            report.seed, report.resolution.width, report.resolution.height));
+    const bool has_picture = report.resolution.width > 0;
+    line("Run", fmt::format("rtusim {}, preset {}", report.version, report.preset) +
+                    (has_picture ? fmt::format(", seed {}, {} x {} pixels", report.seed,
+                                               report.resolution.width, report.resolution.height)
+                                 : ""));
+    if (report.rays_file) line("Rays", "from " + *report.rays_file);
     line("Inputs", fmt::format("scene {}, configuration {}", report.input_hash, config_hash(report)));
     line("Scene", fmt::format("{} triangles ({} degenerate), {} vertices", grouped(triangle_count),
                               grouped(degenerate_count), grouped(vertex_count)));
-    line("Camera",
-         fmt::format("{}: eye {}, target {}, tan half fov {:.4g}", report.camera_source,
-                     text(report.camera.eye), text(report.camera.target), report.camera.tan_half_fov));
+    if (has_picture) {
+        line("Camera",
+             fmt::format("{}: eye {}, target {}, tan half fov {:.4g}", report.camera_source,
+                         text(report.camera.eye), text(report.camera.target), report.camera.tan_half_fov));
+    }
     const PairingFacts& pairing = report.pairing;
     line("Pairing", fmt::format("{} by {}: {} % of the triangles paired ({} pairs, {} single)",
                                 pairing.method, pairing.edge_identity, fixed(pairing.paired_percent, 2),

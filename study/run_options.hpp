@@ -13,6 +13,7 @@
 #include "model/workload.hpp"
 #include "sim/clock_domain.hpp"
 #include "sim/config.hpp"
+#include "traces/ray_files.hpp"
 
 namespace rtu::study {
 
@@ -25,6 +26,14 @@ struct SceneSource {
     [[nodiscard]] std::string name() const { return file ? file->stem().string() : "builtin"; }
 };
 
+/// A file of rays to simulate instead of the rays of workloads.
+struct RayInput {
+    std::filesystem::path file;
+    traces::RayFormat format = traces::RayFormat::Trace;  ///< of rays or visits
+    traces::ImportOptions import;                         ///< for formats that do not say
+    bool is_forced = false;                               ///< a trace of another scene will do
+};
+
 /// How to simulate it. Everything is validated by whoever fills this in.
 struct RunOptions {
     model::PairingMethod pairing;
@@ -35,6 +44,8 @@ struct RunOptions {
     /// Cameras by scene name (see model::load_camera); a scene without an entry gets the automatic camera.
     std::optional<std::filesystem::path> camera_file;
     std::uint64_t seed = 1;
+    /// Replaces workloads, resolution, camera and seed.
+    std::optional<RayInput> rays;
     std::string preset = "default";  ///< only named in the report
     sim::Config config;              ///< the effective configuration
     sim::ClockMode clock_mode = sim::ClockMode::Fast;

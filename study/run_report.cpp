@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "model/fingerprint.hpp"
 #include "sim/config_keys.hpp"
-#include "study/fingerprint.hpp"
 
 namespace rtu::study {
 
@@ -40,7 +40,7 @@ std::string config_hash(const SceneReport& report) {
     for (const auto& [key, value] : report.config) {
         std::visit([&text, name = key](const auto& v) { text += fmt::format("{}={}\n", name, v); }, value);
     }
-    return fingerprint(text);
+    return model::hex_digits(model::fingerprint(text));
 }
 
 }  // namespace rtu::study

@@ -104,9 +104,11 @@ struct SceneReport {
     std::string input_hash;  ///< fingerprint() of the mesh, 16 hex digits
     std::string preset;
     std::uint64_t seed = 0;
-    model::Resolution resolution;
+    model::Resolution resolution;  ///< 0 x 0: rays of a file that says nothing of a picture
     model::Camera camera;
-    std::string camera_source;  ///< "automatic", "built-in", or the camera file's name
+    std::string
+        camera_source;  ///< "automatic", "built-in", or the camera file's name; "none": rays of a file
+    std::optional<std::string> rays_file;  ///< name of the file that the rays were read from
     SceneFacts scene;
     PairingFacts pairing;
     BvhFacts bvh;

@@ -4,8 +4,8 @@
 
 #include "model/builtin_scene.hpp"
 #include "model/bvh.hpp"
+#include "model/fingerprint.hpp"
 #include "model/gltf.hpp"
-#include "study/fingerprint.hpp"
 
 namespace rtu::study {
 namespace {
@@ -38,7 +38,7 @@ LoadedScene load_scene(const SceneSource& source) {
     const model::TriangleMesh& mesh = scene.mesh;
     scene.facts = {source.name(), mesh.triangles.size(), mesh.positions.size(),
                    model::count_degenerate(mesh)};
-    scene.input_hash = fingerprint(mesh);
+    scene.input_hash = model::hex_digits(model::fingerprint(mesh));
     return scene;
 }
 
@@ -70,11 +70,12 @@ ChosenCamera choose_camera(const model::TriangleMesh& mesh, const model::MemoryI
     return {model::automatic_camera(mesh, image), "automatic"};
 }
 
-WorkloadReport workload_report(const model::Workload& workload, const sim::MachineResult& result) {
+WorkloadReport workload_report(const std::string& name, std::uint64_t hit_count,
+                               const sim::MachineResult& result) {
     WorkloadReport report;
-    report.name = workload.name;
-    report.ray_count = workload.rays.size();
-    for (const auto& hit : result.hits) report.hit_count += hit ? 1 : 0;
+    report.name = name;
+    report.ray_count = result.ray_count;
+    report.hit_count = hit_count;
     report.box_tests = result.counts.box_tests;
     report.node_visits = result.counts.node_visits;
     report.pair_tests = result.counts.pair_tests;

@@ -52,7 +52,7 @@ struct ChosenCamera {
                                          const std::optional<std::filesystem::path>& camera_file);
 
 /// What a simulation counted, under the names of reports.
-[[nodiscard]] WorkloadReport workload_report(const model::Workload& workload,
+[[nodiscard]] WorkloadReport workload_report(const std::string& name, std::uint64_t hit_count,
                                              const sim::MachineResult& result);
 
 }  // namespace rtu::study

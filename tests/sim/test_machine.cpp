@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "machine_fixture.hpp"
 #include "model/error.hpp"
 #include "sim/machine.hpp"
+#include "traces/visit_recorder.hpp"
 
 namespace rtu::sim {
 namespace {
@@ -65,25 +68,67 @@ TEST_P(Machine, GivesTheReferencesHitsAndCounts) {
     }
 }
 
+void expect_equal(const MachineResult& a, const MachineResult& b) {
+    EXPECT_EQ(a.cycles, b.cycles);
+    EXPECT_EQ(a.counts, b.counts);
+    EXPECT_EQ(a.hits, b.hits);
+    for (const auto member : {&MachineResult::units, &MachineResult::memory}) {
+        ASSERT_EQ((a.*member).size(), (b.*member).size());
+        for (std::size_t i = 0; i < (a.*member).size(); ++i) {
+            const UnitResult &x = (a.*member)[i], &y = (b.*member)[i];
+            EXPECT_EQ(x.cycles, y.cycles) << x.name;
+            for (std::size_t k = 0; k < x.counters.size(); ++k) {
+                EXPECT_EQ(x.counters[k].value, y.counters[k].value) << x.name << " " << x.counters[k].name;
+            }
+        }
+    }
+}
+
 TEST_P(Machine, GivesTheSameCyclesAndCountersInBothClockModes) {
     const auto image = test::image_of(test::triangle_soup(300, 5, 0.2F));
     const auto rays = test::rays_into_unit_cube(150, 6);
     const MachineResult fast = simulate(config_, image, rays, RayKind::ClosestHit, ClockMode::Fast);
     const MachineResult verify = simulate(config_, image, rays, RayKind::ClosestHit, ClockMode::Verify);
-    EXPECT_EQ(fast.cycles, verify.cycles);
-    EXPECT_EQ(fast.hits, verify.hits);
-    const auto expect_equal = [](const std::vector<UnitResult>& a, const std::vector<UnitResult>& b) {
-        ASSERT_EQ(a.size(), b.size());
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            EXPECT_EQ(a[i].cycles, b[i].cycles) << a[i].name;
-            for (std::size_t k = 0; k < a[i].counters.size(); ++k) {
-                EXPECT_EQ(a[i].counters[k].value, b[i].counters[k].value)
-                    << a[i].name << " " << a[i].counters[k].name;
-            }
+    expect_equal(fast, verify);
+}
+
+// The chunks of recorded traversals, ray by ray.
+class RecordedSupply final : public RaySupply {
+  public:
+    explicit RecordedSupply(std::vector<traces::VisitChunk> chunks) {
+        for (traces::VisitChunk& chunk : chunks) {
+            chunks_.push_back(std::make_shared<const traces::VisitChunk>(std::move(chunk)));
         }
-    };
-    expect_equal(fast.units, verify.units);
-    expect_equal(fast.memory, verify.memory);
+    }
+    std::optional<SuppliedRay> next() override {
+        if (chunk_ < chunks_.size() && ray_ == chunks_[chunk_]->rays.size()) ++chunk_, ray_ = 0;
+        if (chunk_ == chunks_.size()) return std::nullopt;
+        return SuppliedRay{{}, {chunks_[chunk_], ray_++}};
+    }
+    [[nodiscard]] double share() const override { return 0; }
+
+  private:
+    std::vector<std::shared_ptr<const traces::VisitChunk>> chunks_;
+    std::size_t chunk_ = 0;
+    std::uint32_t ray_ = 0;
+};
+
+TEST_P(Machine, ReplaysRecordedTraversalsWithTheSameHitsCyclesAndCounters) {
+    for (const model::BvhOptions options : {model::BvhOptions{4, 1}, {2, 1}, {8, 3}}) {
+        const auto image = test::image_of(test::triangle_soup(800, 3, 0.15F), options);
+        auto rays = test::rays_into_unit_cube(1100, 4);
+        rays[17].direction = {0, 0, 0};  // cannot hit anything, and is not traversed
+        for (const RayKind kind : {RayKind::ClosestHit, RayKind::AnyHit}) {
+            const MachineResult computed = simulate(config_, image, rays, kind);
+            RecordedSupply supply(
+                traces::record_visits({"w", kind, traces::IdKind::None, 0, rays, {}}, image));
+            std::vector<std::optional<model::Hit>> hits;
+            MachineResult replayed =
+                simulate(config_, image, supply, kind, [&](const auto& hit) { hits.push_back(hit); });
+            replayed.hits = std::move(hits);
+            expect_equal(computed, replayed);
+        }
+    }
 }
 
 TEST_P(Machine, IsNeverFasterThanItsUnitsAllow) {

@@ -29,7 +29,7 @@ std::vector<Stamped<MemoryReply>> tokens(std::uint32_t count) {
 std::vector<RaySlot> started_slots(std::uint32_t count, const model::MemoryImage& image,
                                    const model::Ray& ray) {
     std::vector<RaySlot> slots(count);
-    for (RaySlot& slot : slots) EXPECT_TRUE(model::start(slot.traversal, image, ray, RayKind::ClosestHit));
+    for (RaySlot& slot : slots) EXPECT_TRUE(slot.walk.start(image, {ray, {}}, RayKind::ClosestHit));
     return slots;
 }
 
@@ -43,14 +43,14 @@ struct UnitRun {
 
 // Runs a unit between a source of tokens and a sink that is open when told to be.
 template <class Unit, class Config>
-UnitRun run_unit(const Config& config, const model::MemoryImage& image, std::vector<RaySlot>& slots,
-                 std::size_t depth_out = wide_channel, const std::function<bool(Cycle)>& is_open = {}) {
+UnitRun run_unit(const Config& config, std::vector<RaySlot>& slots, std::size_t depth_out = wide_channel,
+                 const std::function<bool(Cycle)>& is_open = {}) {
     start_fresh_kernel();
     ClockDomain domain("domain", ClockMode::Fast, 100'000);
     Fifo<MemoryReply> in("in", wide_channel, domain);
     Fifo<SlotToken> out("out", depth_out, domain);
     MockSource<MemoryReply> source("source", domain, tokens(std::uint32_t(slots.size())));
-    Unit unit("unit", domain, config, image, slots);
+    Unit unit("unit", domain, config, slots);
     MockSink<SlotToken> sink("sink", domain, is_open);
     source.out(in);
     if constexpr (std::is_same_v<Unit, BoxUnit>) {
@@ -88,7 +88,7 @@ TEST(BoxUnit, AnswersExactlyAfterItsLatency) {
         auto slots = started_slots(1, scene.image, scene.ray);
         const Config::Rtu::Box config{.boxes_per_cycle = 4, .latency_cycles = latency};
         // Pushed in 0, seen in 1, pushed in 1 + latency, seen one later.
-        EXPECT_EQ(run_unit<BoxUnit>(config, scene.image, slots).arrivals, std::vector<Cycle>{2 + latency});
+        EXPECT_EQ(run_unit<BoxUnit>(config, slots).arrivals, std::vector<Cycle>{2 + latency});
     }
 }
 
@@ -99,7 +99,7 @@ TEST_P(BoxRate, IsThatOfItsLanes) {
     constexpr std::uint32_t count = 48;
     auto slots = started_slots(count, scene.image, scene.ray);
     const Config::Rtu::Box config{.boxes_per_cycle = GetParam(), .latency_cycles = 12};
-    const UnitRun run = run_unit<BoxUnit>(config, scene.image, slots);
+    const UnitRun run = run_unit<BoxUnit>(config, slots);
     for (std::uint32_t k = 0; k < count; ++k) {
         const std::uint32_t nodes_per_cycle = std::max(1U, GetParam() / 4);
         const std::uint32_t cycles_per_node = (4 + GetParam() - 1) / GetParam();
@@ -114,8 +114,7 @@ TEST(BoxUnit, WaitsForAFullSinkAndLosesNothing) {
     const FourBoxes scene;
     auto slots = started_slots(60, scene.image, scene.ray);
     const Config::Rtu::Box config{.boxes_per_cycle = 4, .latency_cycles = 12};
-    const UnitRun run =
-        run_unit<BoxUnit>(config, scene.image, slots, 2, [](Cycle now) { return now % 40 == 0; });
+    const UnitRun run = run_unit<BoxUnit>(config, slots, 2, [](Cycle now) { return now % 40 == 0; });
     EXPECT_EQ(run.arrivals.size(), 60U);
     EXPECT_GT(run.account.blocked, 0U);
     EXPECT_EQ(run.account.busy, 60U);
@@ -135,8 +134,8 @@ struct OnePair {
           image(test::image_of(mesh)),
           slots(started_slots(count, image, {{-0.5F, -0.5F, 0}, 0, {0, 0, 1}, 1e30F})) {
         for (RaySlot& slot : slots) {
-            model::visit_node(slot.traversal, image);
-            EXPECT_TRUE(model::pop(slot.traversal));
+            slot.walk.visit_node();
+            EXPECT_TRUE(slot.walk.pop());
         }
     }
 };
@@ -145,8 +144,7 @@ TEST(PairUnit, AnswersExactlyAfterItsLatency) {
     for (const std::uint32_t latency : {1U, 9U, 22U}) {
         OnePair scene(false, 1);
         const Config::Rtu::Pair config{PairMode::DualShared, 1, 1, latency, 1};
-        EXPECT_EQ(run_unit<PairUnit>(config, scene.image, scene.slots).arrivals,
-                  std::vector<Cycle>{2 + latency});
+        EXPECT_EQ(run_unit<PairUnit>(config, scene.slots).arrivals, std::vector<Cycle>{2 + latency});
     }
 }
 
@@ -170,8 +168,8 @@ TEST_P(PairRate, IsThatOfItsModeAndInterval) {
     for (const std::uint32_t testers : {1U, 2U}) {
         constexpr std::uint32_t count = 40, latency = 22;
         OnePair scene(is_folded, count);
-        const UnitRun run = run_unit<PairUnit>(Config::Rtu::Pair{mode, testers, ii, latency, replay},
-                                               scene.image, scene.slots);
+        const UnitRun run =
+            run_unit<PairUnit>(Config::Rtu::Pair{mode, testers, ii, latency, replay}, scene.slots);
         for (std::uint32_t k = 0; k < count; ++k) {
             ASSERT_EQ(run.arrivals[k], 1 + k / testers * held + extra + latency + 1) << "result " << k;
         }
@@ -190,8 +188,8 @@ INSTANTIATE_TEST_SUITE_P(Modes, PairRate,
 
 TEST(PairUnit, WaitsForAFullSinkAndLosesNothing) {
     OnePair scene(true, 60);
-    const UnitRun run = run_unit<PairUnit>(Config::Rtu::Pair{PairMode::DualShared, 1, 1, 22, 1}, scene.image,
-                                           scene.slots, 2, [](Cycle now) { return now % 100 == 0; });
+    const UnitRun run = run_unit<PairUnit>(Config::Rtu::Pair{PairMode::DualShared, 1, 1, 22, 1}, scene.slots,
+                                           2, [](Cycle now) { return now % 100 == 0; });
     EXPECT_EQ(run.arrivals.size(), 60U);
     EXPECT_GT(run.account.blocked, 0U);
     EXPECT_EQ(run.account.busy, 120U);
@@ -201,7 +199,9 @@ TEST(RaySource, HandsRaysOutInTurnAtItsRate) {
     start_fresh_kernel();
     ClockDomain domain("domain", ClockMode::Fast, 1'000);
     Fifo<RayMessage> a("a", 2, domain), b("b", 2, domain);
-    RaySource source("source", domain, 10, 1, 2);
+    const std::vector<model::Ray> rays(10);
+    SpanSupply supply(rays);
+    RaySource source("source", domain, supply, 1, 2);
     MockSink<RayMessage> sink_a("sink_a", domain), sink_b("sink_b", domain);
     source.rays_out[0](a);
     source.rays_out[1](b);
@@ -219,18 +219,18 @@ TEST(HitSink, RefusesARayThatReturnsTwice) {
     start_fresh_kernel();
     ClockDomain domain("domain", ClockMode::Fast, 1'000);
     Fifo<HitMessage> hits("hits", 4, domain);
-    MockSource<HitMessage> source("source", domain, {{0, {3, false, {}}}, {1, {3, false, {}}}});
-    HitSink sink("sink", domain, 5, 1);
+    MockSource<HitMessage> source("source", domain, {{0, {3, {}}}, {1, {3, {}}}});
+    HitSink sink(
+        "sink", domain, [](const auto&) {}, 1);
     source.out(hits);
     sink.hits_in[0](hits);
-    EXPECT_THROW(domain.run([&] { return sink.is_done(); }), std::logic_error);
+    EXPECT_THROW(domain.run([&] { return sink.received() == 2; }), std::logic_error);
 }
 
 // The scheduler alone: what it asks for, and when.
 TEST(RayScheduler, AsksForTheRootOneCycleAfterItAcceptsARay) {
     start_fresh_kernel();
     const FourBoxes scene;
-    const std::vector<model::Ray> rays(3, scene.ray);
     ClockDomain domain("domain", ClockMode::Fast, 1'000);
     Fifo<RayMessage> in("in", 8, domain);
     Fifo<SlotToken> box_results("box_results", 2, domain), pair_results("pair_results", 2, domain);
@@ -239,8 +239,9 @@ TEST(RayScheduler, AsksForTheRootOneCycleAfterItAcceptsARay) {
     Fifo<HitMessage> hits("hits", 2, domain);
     RaySlots slots(2);
     Config::Rtu config = Config{}.rtu;
-    MockSource<RayMessage> source("source", domain, {{0, {0}}, {0, {1}}, {0, {2}}});
-    RayScheduler scheduler("scheduler", domain, config, scene.image, rays, RayKind::ClosestHit, slots, {});
+    MockSource<RayMessage> source(
+        "source", domain, {{0, {0, {scene.ray, {}}}}, {0, {1, {scene.ray, {}}}}, {0, {2, {scene.ray, {}}}}});
+    RayScheduler scheduler("scheduler", domain, config, scene.image, RayKind::ClosestHit, slots, {});
     MockSink<MemoryRequest> sink("sink", domain);
     source.out(in);
     scheduler.rays_in(in);

@@ -1,10 +1,11 @@
-#include "study/fingerprint.hpp"
+#include "model/fingerprint.hpp"
 
 #include <fmt/format.h>
 
 #include <bit>
+#include <cstring>
 
-namespace rtu::study {
+namespace rtu::model {
 namespace {
 
 // FNV-1a, 64 bits (Fowler, Noll, Vo): the offset basis and the prime are the published ones.
@@ -16,21 +17,33 @@ constexpr std::uint64_t mix(std::uint64_t hash, std::uint64_t word) { return (ha
 
 }  // namespace
 
-std::string fingerprint(std::string_view bytes) {
+std::uint64_t fingerprint(std::string_view bytes) {
     std::uint64_t hash = fnv_basis;
     for (const char c : bytes) hash = mix(hash, static_cast<unsigned char>(c));
-    return fmt::format("{:016x}", hash);
+    return hash;
 }
 
-std::string fingerprint(const model::TriangleMesh& mesh) {
+std::uint64_t fingerprint(const TriangleMesh& mesh) {
     std::uint64_t hash = mix(mix(fnv_basis, mesh.triangles.size()), mesh.positions.size());
-    for (const model::Triangle& triangle : mesh.triangles) {
+    for (const Triangle& triangle : mesh.triangles) {
         for (const std::uint32_t index : triangle) hash = mix(hash, index);
     }
-    for (const model::Vec3 p : mesh.positions) {
+    for (const Vec3 p : mesh.positions) {
         for (const float value : {p.x, p.y, p.z}) hash = mix(hash, std::bit_cast<std::uint32_t>(value));
     }
-    return fmt::format("{:016x}", hash);
+    return hash;
 }
 
-}  // namespace rtu::study
+std::uint64_t fingerprint(const MemoryImage& image) {
+    std::uint64_t hash = mix(mix(fnv_basis, image.width), image.blocks.size());
+    for (const MemoryImage::Block& block : image.blocks) {
+        std::array<std::uint64_t, image_block_bytes / 8> words;
+        std::memcpy(words.data(), block.bytes.data(), sizeof words);
+        for (const std::uint64_t word : words) hash = mix(hash, word);
+    }
+    return hash;
+}
+
+std::string hex_digits(std::uint64_t fingerprint) { return fmt::format("{:016x}", fingerprint); }
+
+}  // namespace rtu::model

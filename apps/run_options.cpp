@@ -1,0 +1,89 @@
+#include "apps/run_options.hpp"
+
+#include <string>
+
+#include "apps/machine_options.hpp"
+#include "model/pairing.hpp"
+
+namespace rtu::apps {
+
+void add_tree_options(CLI::App& run, RunArguments& arguments) {
+    run.add_option("--pairing", arguments.pairing,
+                   "how triangles become pairs: " + std::string(model::pairing_method_names))
+        ->type_name("METHOD")
+        ->capture_default_str();
+    run.add_option("--edge-identity", arguments.edge_identity,
+                   "corners are one vertex by position (bit-equal) or by index (the file's)")
+        ->type_name("KIND")
+        ->capture_default_str();
+}
+
+void add_picture_options(CLI::App& run, RunArguments& arguments, CLI::Option* rays) {
+    const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
+        CLI::Option* option = run.add_option(name, value, help)->type_name(type);
+        if (rays != nullptr) option->excludes(rays);
+        return option;
+    };
+    add("--workload", arguments.workloads, "rays to trace, of primary, shadow, ao, diffuse, random", "LIST")
+        ->capture_default_str();
+    add("--resolution", arguments.resolution, "picture size in pixels, one primary ray each", "WxH")
+        ->capture_default_str();
+    add("--camera", arguments.camera,
+        "TOML with eye, target, up, tan_half_fov, in a table named like the scene;\n"
+        "without it, or without the scene's table, the camera is automatic",
+        "FILE")
+        ->check(is_not_empty());
+    add("--seed", arguments.seed, "of the random numbers of ao, diffuse and random rays", "N")
+        ->capture_default_str();
+}
+
+void add_ray_input_options(CLI::App& command, RunArguments& arguments, CLI::Option* rays) {
+    CLI::Option* format =
+        command
+            .add_option("--format", arguments.rays_format,
+                        "of the rays: trace, rays7, rays8, csv, jsonl, npy; default: by content or extension")
+            ->type_name("NAME");
+    CLI::Option* kind = command
+                            .add_option("--kind", arguments.ray_kind,
+                                        "of rays whose file does not say: closest hit or any hit")
+                            ->type_name("closest|any")
+                            ->capture_default_str();
+    CLI::Option* force =
+        command.add_flag("--force", arguments.is_forced, "take a trace that was recorded on another scene");
+    if (rays == nullptr) return;
+    for (CLI::Option* option : {format, kind, force}) option->needs(rays);
+}
+
+void add_output_options(CLI::App& run, RunArguments& arguments) {
+    run.add_option("--json", arguments.json,
+                   "write the report as JSON; - is standard output, and no text then")
+        ->type_name("FILE|-")
+        ->check(is_not_empty());
+    run.add_option("--csv", arguments.csv, "write the report as CSV, a row for each scene and workload")
+        ->type_name("FILE")
+        ->check(is_not_empty());
+    run.add_option("--image", arguments.image_folder,
+                   "write SCENE_normal.png and SCENE_box_tests.png there; made if missing")
+        ->type_name("DIR")
+        ->check(is_not_empty());
+    run.add_flag(
+        "--check", arguments.is_checked,
+        "compare every hit with the reference traversal and with Embree;\na difference is exit code 3");
+}
+
+void add_thread_option(CLI::App& run, RunArguments& arguments) {
+    run.add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+}
+
+void add_host_options(CLI::App& run, RunArguments& arguments) {
+    run.add_option("--clock-mode", arguments.clock_mode,
+                   "fast, or verify: a clocked process for each unit, same results, slower")
+        ->type_name("MODE")
+        ->capture_default_str();
+    add_thread_option(run, arguments);
+}
+
+}  // namespace rtu::apps
