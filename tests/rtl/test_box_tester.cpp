@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "hesitant.hpp"
 #include "model/traversal.hpp"
 #include "rtl_ref/harness/stream.hpp"
 #include "sim/config.hpp"
@@ -231,23 +232,8 @@ TYPED_TEST(BoxTester, HasTheLatencyOfTheDefaultMachine) {
     EXPECT_EQ(cycles->first_result, sim::Config{}.rtu.box.latency_cycles);
 }
 
-// Each side unwilling at random, for runs of cycles.
-class Hesitant {
-  public:
-    bool offers() { return toss(offering_); }
-    bool takes() { return toss(taking_); }
-
-  private:
-    bool toss(bool& state) {
-        if (random_.one_in(5)) state = !state;
-        return state;
-    }
-    RandomBits random_{3};
-    bool offering_ = false, taking_ = false;
-};
-
 TYPED_TEST(BoxTester, LosesNothingToHesitantNeighbours) {
-    EXPECT_TRUE(compare<TypeParam>(5'000, Hesitant{}));
+    EXPECT_TRUE(compare<TypeParam>(5'000, test::Hesitant{}));
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+#include <Vpair_reject_0.h>
+#include <Vpair_reject_1.h>
+#include <Vpair_reject_2.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+
+#include "hesitant.hpp"
+#include "model/pair_test.hpp"
+#include "pair_vectors.hpp"
+#include "rtl_ref/harness/stream.hpp"
+#include "sim/config.hpp"
+
+namespace rtu {
+namespace {
+
+using model::Vec3;
+using sim::PairMode;
+using test::bits_of;
+using test::PairVector;
+
+template <class Top, PairMode Mode>
+struct Build {
+    using Unit = Top;
+    static constexpr PairMode mode = Mode;
+};
+
+template <class Unit>
+void drive(Unit& unit, const PairVector& vector) {
+    static_assert(sizeof unit.vertices_i == sizeof vector.pair.vertices);
+    std::memcpy(&unit.vertices_i, &vector.pair.vertices, sizeof unit.vertices_i);
+    std::memcpy(&unit.origin_i, &vector.ray.origin, sizeof unit.origin_i);
+    unit.tag_i = vector.tag;
+    unit.has_second_i = vector.pair.has_second();
+    unit.is_degenerate_i = std::uint8_t(vector.pair.flags >> 8 & 3U);
+    unit.kz_i = vector.ray.kz;
+    unit.shear_x_i = bits_of(vector.ray.shear_x);
+    unit.shear_y_i = bits_of(vector.ray.shear_y);
+}
+
+// The model counts what its first pass lets through; with the other triangle out of the way, it is this one.
+std::uint32_t goes_on_in_model(const PairVector& vector) {
+    std::uint32_t goes_on = 0;
+    for (std::uint32_t triangle = 0; triangle < (vector.pair.has_second() ? 2U : 1U); ++triangle) {
+        model::LeafPair pair = vector.pair;
+        pair.flags |= 1U << (9 - triangle);
+        goes_on |= model::test_pair(pair, vector.ray).exact_tests << triangle;
+    }
+    return goes_on;
+}
+
+template <class B>
+class PairReject : public testing::Test {};
+using Builds =
+    testing::Types<Build<Vpair_reject_0, PairMode::Single>, Build<Vpair_reject_1, PairMode::DualIndependent>,
+                   Build<Vpair_reject_2, PairMode::DualShared>>;
+struct BuildNames {
+    template <class B>
+    static std::string GetName(int) {
+        constexpr std::array names{"single", "dual_independent", "dual_shared"};
+        return names[std::size_t(B::mode)];
+    }
+};
+TYPED_TEST_SUITE(PairReject, Builds, BuildNames);
+
+struct Tally {
+    std::optional<rtl::StreamCycles> cycles;
+    std::array<std::uint64_t, 4> outcomes{};  // by the triangles that go on
+    std::uint64_t triangles = 0;
+};
+
+template <class B, class Draw, class Willing = rtl::AlwaysWilling>
+Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
+    typename B::Unit unit;
+    Tally tally;
+    const auto check = [&](const auto& rtl, const PairVector& vector) {
+        if (testing::Test::HasFatalFailure()) return;
+        const std::uint32_t expected = goes_on_in_model(vector);
+        ++tally.outcomes[expected];
+        tally.triangles += vector.pair.has_second() ? 2 : 1;
+        ASSERT_EQ(rtl.tag_o, vector.tag);
+        ASSERT_EQ(rtl.goes_on_o, expected);
+    };
+    tally.cycles = rtl::run_stream(
+        unit, count, draw, [](auto& rtl, const auto& vector) { drive(rtl, vector); }, check, willing);
+    return tally;
+}
+
+TYPED_TEST(PairReject, LetsThroughWhatTheModelLetsThroughAtItsRate) {
+    const std::uint64_t count = test::vector_count(300'000);
+    const Tally tally = compare<TypeParam>(count, test::DrawPair(21));
+    ASSERT_TRUE(tally.cycles);
+    for (const std::uint64_t outcome : tally.outcomes) EXPECT_GT(outcome, count / 50);
+    const std::uint64_t issues = TypeParam::mode == PairMode::Single ? tally.triangles : count;
+    EXPECT_LE(tally.cycles->total - (issues - 1), tally.cycles->first_result);
+    EXPECT_GE(tally.cycles->total - (issues - 1), tally.cycles->first_result - 1);
+}
+
+// Of a lone triangle, issue to result.
+TYPED_TEST(PairReject, HasTheDocumentedLatency) {
+    test::DrawPair draw(22);
+    const Tally tally = compare<TypeParam>(1, [&] {
+        PairVector vector = draw();
+        while (vector.pair.has_second()) vector = draw();
+        return vector;
+    });
+    ASSERT_TRUE(tally.cycles);
+    EXPECT_EQ(tally.cycles->first_result, 33U);
+}
+
+TYPED_TEST(PairReject, LosesNothingToHesitantNeighbours) {
+    EXPECT_TRUE(compare<TypeParam>(5'000, test::DrawPair(23), test::Hesitant{}).cycles);
+}
+
+}  // namespace
+}  // namespace rtu
