@@ -2,7 +2,7 @@
 // in which the last one is empty or taken (en_o), so a stalled output stops the whole pipeline. valid_o depends on
 // registers only; ready_o follows ready_i within the cycle.
 module pipeline_control #(
-  parameter int unsigned Latency  = 1,
+  parameter int unsigned Latency  = 2,  // 2 or more
   parameter int unsigned TagWidth = 1
 ) (
   input  logic                clk_i,

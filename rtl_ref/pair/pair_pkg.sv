@@ -6,11 +6,12 @@ package pair_pkg;
   localparam int unsigned DualIndependent = 1;  // two complete testers
   localparam int unsigned DualShared = 2;       // each of the four vertices and the common edge once
 
-  localparam int unsigned ShearLatency = 2 * fp32_pkg::AddLatency + fp32_pkg::MulLatency;
-  localparam int unsigned EdgeLatency = fp32_pkg::MulLatency + fp32_pkg::AddLatency;
-  localparam int unsigned ReachLatency = fp32_pkg::AddLatency + 2;  // of a triangle, from its sheared corners
-  localparam int unsigned BoundLatency = 2 * fp32_pkg::AddLatency + fp32_pkg::MulLatency + 2;  // from its reach
-  localparam int unsigned RejectLatency = ShearLatency + ReachLatency + BoundLatency + 1;
+  // In cycles; miss_test and pair_reject check them against fp32_pkg. Yosys 0.23 knows no package in a package.
+  localparam int unsigned ShearLatency = 12;   // add, multiply, add
+  localparam int unsigned EdgeLatency = 8;     // multiply, add
+  localparam int unsigned ReachLatency = 6;    // of a triangle from its sheared corners: add, twice the larger
+  localparam int unsigned BoundLatency = 14;   // from the reach: halve, add, halve, multiply, add
+  localparam int unsigned RejectLatency = 33;  // shear, reach, bound, compare
 
   // The axes (kz, ky, kx) of a point, kz being the axis of the ray's largest direction component.
   function automatic logic [95:0] turned(input logic [95:0] p, input logic [1:0] kz);

@@ -7,7 +7,8 @@ module shared_reject (
   input  logic [95:0]  origin_i,
   input  logic [31:0]  shear_x_i,
   input  logic [31:0]  shear_y_i,
-  output logic [1:0]   is_missed_o
+  output logic [1:0]   is_missed_o,
+  output logic [1:0]   is_inside_o
 );
 
   logic [95:0] v[4];
@@ -36,11 +37,11 @@ module shared_reject (
 
   miss_test u_miss_0 (
     .clk_i, .en_i, .reach_i(reach_0), .edge_u_i(edge_cb), .edge_v_i(common), .edge_w_i(edge_ba),
-    .is_missed_o(is_missed_o[0])
+    .is_missed_o(is_missed_o[0]), .is_inside_o(is_inside_o[0])
   );
   miss_test u_miss_1 (
     .clk_i, .en_i, .reach_i(reach_1), .edge_u_i(edge_dc), .edge_v_i(edge_ad),
-    .edge_w_i(fp32_pkg::negated(common)), .is_missed_o(is_missed_o[1])
+    .edge_w_i(fp32_pkg::negated(common)), .is_missed_o(is_missed_o[1]), .is_inside_o(is_inside_o[1])
   );
 
 endmodule

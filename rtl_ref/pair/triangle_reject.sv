@@ -8,7 +8,8 @@ module triangle_reject (
   input  logic [95:0] origin_i,
   input  logic [31:0] shear_x_i,
   input  logic [31:0] shear_y_i,
-  output logic        is_missed_o
+  output logic        is_missed_o,
+  output logic        is_inside_o
 );
 
   logic [95:0] a, b, c;
@@ -30,7 +31,7 @@ module triangle_reject (
   larger_reach u_reach (.clk_i, .en_i, .a_i(reach_ac), .b_i(reach_b_later), .larger_o(reach));
 
   miss_test u_miss (
-    .clk_i, .en_i, .reach_i(reach), .edge_u_i(u), .edge_v_i(v), .edge_w_i(w), .is_missed_o
+    .clk_i, .en_i, .reach_i(reach), .edge_u_i(u), .edge_v_i(v), .edge_w_i(w), .is_missed_o, .is_inside_o
   );
 
 endmodule

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "hesitant.hpp"
+#include "model/exact_triangle.hpp"
 #include "model/pair_test.hpp"
 #include "pair_vectors.hpp"
 #include "rtl_ref/harness/stream.hpp"
@@ -50,6 +51,15 @@ std::uint32_t goes_on_in_model(const PairVector& vector) {
     return goes_on;
 }
 
+// Whether the ray passes all three edges on the same side, decided exactly.
+bool is_inside_exactly(const PairVector& vector, std::uint32_t triangle) {
+    const auto& v = vector.pair.vertices;
+    const model::ExactTriangle exact({vector.ray.origin, vector.ray.direction, vector.ray.kz},
+                                     {v[0], v[1 + triangle], v[2 + triangle]});
+    const auto side = [&](std::size_t edge) { return exact.side(edge, exact.edge_function(edge)); };
+    return side(0) != model::Side::Neither && side(0) == side(1) && side(1) == side(2);
+}
+
 template <class B>
 class PairReject : public testing::Test {};
 using Builds =
@@ -68,6 +78,7 @@ struct Tally {
     std::optional<rtl::StreamCycles> cycles;
     std::array<std::uint64_t, 4> outcomes{};  // by the triangles that go on
     std::uint64_t triangles = 0;
+    std::uint64_t inside = 0;  // triangles that need no exact side
 };
 
 template <class B, class Draw, class Willing = rtl::AlwaysWilling>
@@ -81,6 +92,11 @@ Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
         tally.triangles += vector.pair.has_second() ? 2 : 1;
         ASSERT_EQ(rtl.tag_o, vector.tag);
         ASSERT_EQ(rtl.goes_on_o, expected);
+        for (std::uint32_t triangle = 0; triangle < 2; ++triangle) {
+            if ((rtl.is_inside_o >> triangle & 1U) == 0) continue;
+            ASSERT_TRUE(is_inside_exactly(vector, triangle));
+            ++tally.inside;
+        }
     };
     tally.cycles = rtl::run_stream(
         unit, count, draw, [](auto& rtl, const auto& vector) { drive(rtl, vector); }, check, willing);
@@ -88,10 +104,11 @@ Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
 }
 
 TYPED_TEST(PairReject, LetsThroughWhatTheModelLetsThroughAtItsRate) {
-    const std::uint64_t count = test::vector_count(300'000);
+    const std::uint64_t count = test::vector_count(1'000'000);
     const Tally tally = compare<TypeParam>(count, test::DrawPair(21));
     ASSERT_TRUE(tally.cycles);
     for (const std::uint64_t outcome : tally.outcomes) EXPECT_GT(outcome, count / 50);
+    EXPECT_GT(tally.inside, count / 50);
     const std::uint64_t issues = TypeParam::mode == PairMode::Single ? tally.triangles : count;
     EXPECT_LE(tally.cycles->total - (issues - 1), tally.cycles->first_result);
     EXPECT_GE(tally.cycles->total - (issues - 1), tally.cycles->first_result - 1);
