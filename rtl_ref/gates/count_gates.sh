@@ -6,7 +6,7 @@
 #   register_bits    flip-flops; register_gates: those of the gates that are theirs
 #   multipliers      binary32 multipliers and adders in it (fp32_mul, fp32_add)
 #   adders
-#   depth            two-input gates and multiplexers between registers, at most; mapped for speed of synthesis
+#   depth            two-input gates and multiplexers between two registers, at most; mapped without restructuring
 #
 # Multipliers and adders are synthesised once and counted as often as they are used; the rest of a unit is flattened.
 # usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value; without any, all units of gates.csv
@@ -15,21 +15,21 @@ cd "$(dirname "$(readlink -f "$0")")/.."
 
 all_units=(fp32_mul fp32_add fp32_compare near_to_far:Width=2 near_to_far:Width=4 near_to_far:Width=6
     near_to_far:Width=8 box_tester:Width=2 box_tester:Width=4 box_tester:Width=6 box_tester:Width=8 pair_reject:Mode=0
-    pair_reject:Mode=1 pair_reject:Mode=2)
+    pair_reject:Mode=1 pair_reject:Mode=2 exact_side)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Yosys takes no globs, and assertions are not hardware.
-mapfile -t sources < <(ls ./*/*_pkg.sv && find . -name '*.sv' ! -name '*_pkg.sv' ! -name stream_check.sv \
-    ! -path './harness/*' | LC_ALL=C sort)
+# A unit's modules are read as they are needed: what Yosys makes of one depends a little on everything that it has read.
+mapfile -t packages < <(ls ./*/*_pkg.sv)
+folders=(-libdir fp -libdir box -libdir pair -libdir exact)
 
 # synthesise MODULE [PARAMETER=VALUE]: leaves area.txt and depth.txt in the work folder.
 synthesise() {
     local top=$1 setting=${2:-}
     yosys -q -p "
-        read_verilog -sv ${sources[*]}
+        read_verilog -sv ${packages[*]} $(ls ./*/"$top.sv")
         ${setting:+chparam -set ${setting/=/ } $top}
-        hierarchy -top $top
+        hierarchy -top $top ${folders[*]}
         setattr -mod -set keep_hierarchy 1 fp32_mul
         setattr -mod -set keep_hierarchy 1 fp32_add
         synth -flatten -top $top

@@ -3,9 +3,22 @@
 #include <cmath>
 #include <limits>
 
+#include "model/pair_test.hpp"
+
 namespace rtu::test {
 
 using model::Vec3;
+
+// The model counts them; with the other triangle out of the way, it is this one.
+std::uint32_t goes_on_in_model(const PairVector& vector) {
+    std::uint32_t goes_on = 0;
+    for (std::uint32_t triangle = 0; triangle < (vector.pair.has_second() ? 2U : 1U); ++triangle) {
+        model::LeafPair pair = vector.pair;
+        pair.flags |= 1U << (9 - triangle);
+        goes_on |= model::test_pair(pair, vector.ray).exact_tests << triangle;
+    }
+    return goes_on;
+}
 
 PairVector DrawPair::operator()() {
     PairVector vector;

@@ -4,20 +4,18 @@
 #include <Vbox_tester_8.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 
+#include "box_vectors.hpp"
 #include "hesitant.hpp"
-#include "model/traversal.hpp"
 #include "rtl_ref/harness/stream.hpp"
 #include "sim/config.hpp"
-#include "vectors.hpp"
 
 namespace rtu {
 namespace {
 
 using model::Vec3;
-using test::bits_of;
+using test::BoxVector;
 using test::RandomBits;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -27,81 +25,6 @@ struct Build {
     using Unit = Top;
     static constexpr std::uint32_t width = ChildCount;
 };
-
-// A node with a ray's interval, and what the model makes of them.
-template <std::uint32_t Width>
-struct Vector {
-    model::Node<Width> node{};
-    model::RaySetup ray;
-    float t_end = infinity;
-    std::uint8_t tag = 0;
-};
-
-// Visits the one node of an image; the stack then holds the children that the ray meets, the nearest on top.
-template <std::uint32_t Width>
-class Reference {
-  public:
-    Reference() {
-        image_.width = Width;
-        image_.depth = 1;
-        image_.blocks.resize(sizeof(model::Node<Width>) / model::image_block_bytes);
-    }
-    const model::TraversalStack& visit(const Vector<Width>& vector) {
-        model::Node<Width> node = vector.node;
-        for (std::uint32_t i = 0; i < Width; ++i) node.child[i] = model::NodeRef::inner(64 * i);
-        std::memcpy(image_.blocks.data(), &node, sizeof node);
-        traversal_.ray = vector.ray;
-        traversal_.closest.hit.t = vector.t_end;
-        traversal_.current.ref = image_.root();
-        traversal_.stack.reset(model::stack_capacity(image_));
-        model::visit_node(traversal_, image_);
-        return traversal_.stack;
-    }
-
-  private:
-    model::MemoryImage image_;
-    model::Traversal traversal_;
-};
-
-template <class Port>
-void set_vector(Port& port, const Vec3& v) {
-    std::memcpy(&port, &v, sizeof v);
-}
-
-template <class Unit, std::uint32_t Width>
-void drive(Unit& unit, const Vector<Width>& vector) {
-    static_assert(sizeof unit.planes_i == sizeof vector.node.planes);
-    std::memcpy(&unit.planes_i, &vector.node.planes, sizeof unit.planes_i);
-    const model::RaySetup& ray = vector.ray;
-    unit.tag_i = vector.tag;
-    unit.child_count_i = std::uint8_t(vector.node.child_count);
-    unit.entry_side_i = std::uint8_t(ray.entry_side[0] | ray.entry_side[1] << 1 | ray.entry_side[2] << 2);
-    set_vector(unit.origin_near_i, ray.origin_near);
-    set_vector(unit.origin_far_i, ray.origin_far);
-    set_vector(unit.inv_direction_i, ray.inv_direction);
-    unit.t_min_i = bits_of(ray.t_min);
-    unit.t_end_i = bits_of(vector.t_end);
-}
-
-template <class Unit, std::uint32_t Width>
-void expect_as_model(const Unit& unit, const Vector<Width>& vector, Reference<Width>& reference) {
-    model::TraversalStack stack = reference.visit(vector);
-    std::array<std::uint32_t, Width> t_near{};
-    std::memcpy(&t_near, &unit.t_near_o, sizeof t_near);
-    ASSERT_EQ(unit.tag_o, vector.tag);
-    ASSERT_EQ(unit.count_o, stack.size());
-    for (std::uint32_t place = 0; place < Width; ++place) {
-        const std::uint32_t child = (std::uint32_t(unit.child_o) >> (3 * place)) & 7U;
-        if (place >= unit.count_o) {
-            ASSERT_EQ(child, 0U);
-            ASSERT_EQ(t_near[place], 0U);
-            continue;
-        }
-        const model::StackEntry expected = stack.pop();
-        ASSERT_EQ(child, expected.ref.address() / 64) << "at place " << place;
-        ASSERT_EQ(t_near[place], bits_of(expected.t_near)) << "at place " << place;
-    }
-}
 
 // How a node and a ray are drawn.
 enum class Kind : std::uint8_t { Scene, AxisParallel, Grid, AnyBits, Special, Extreme };
@@ -113,9 +36,9 @@ class Draw {
   public:
     explicit Draw(std::uint64_t seed) : random_(seed) {}
 
-    Vector<Width> operator()() {
+    BoxVector<Width> operator()() {
         const Kind kind = kinds[random_.below(kinds.size())];
-        Vector<Width> vector;
+        BoxVector<Width> vector;
         vector.tag = std::uint8_t(random_.bits());
         vector.node.child_count = random_.one_in(3) ? random_.below(Width + 1) : Width;
         if (kind == Kind::AnyBits || kind == Kind::Special || kind == Kind::Extreme) {
@@ -139,7 +62,7 @@ class Draw {
     Vec3 numbers(Kind kind) { return {number(kind), number(kind), number(kind)}; }
 
     // Every input on its own: nothing of what relates them in a machine.
-    void draw_numbers(Kind kind, Vector<Width>& vector) {
+    void draw_numbers(Kind kind, BoxVector<Width>& vector) {
         for (auto& side : vector.node.planes) {
             for (auto& axis : side) {
                 for (float& plane : axis) plane = number(kind);
@@ -159,7 +82,7 @@ class Draw {
     Vec3 point(Kind kind) { return {coordinate(kind), coordinate(kind), coordinate(kind)}; }
 
     // Boxes in a scene and a ray through it, set up as the machine does it.
-    void draw_geometry(Kind kind, Vector<Width>& vector) {
+    void draw_geometry(Kind kind, BoxVector<Width>& vector) {
         for (std::uint32_t i = 0; i < Width; ++i) {
             model::Aabb box;
             if (i < vector.node.child_count || random_.one_in(2)) {
@@ -210,17 +133,17 @@ std::optional<rtl::StreamCycles> compare(std::uint64_t count, Willing willing = 
     constexpr std::uint32_t width = B::width;
     typename B::Unit unit;
     Draw<width> draw(width);
-    Reference<width> reference;
-    const auto check = [&](const auto& rtl, const Vector<width>& vector) {
-        if (!testing::Test::HasFatalFailure()) expect_as_model(rtl, vector, reference);
+    test::BoxReference<width> reference;
+    const auto check = [&](const auto& rtl, const BoxVector<width>& vector) {
+        if (!testing::Test::HasFatalFailure()) test::expect_as_model(rtl, vector, reference);
     };
     return rtl::run_stream(
-        unit, count, [&] { return draw(); }, [](auto& rtl, const auto& vector) { drive(rtl, vector); }, check,
-        willing);
+        unit, count, [&] { return draw(); }, [](auto& rtl, const auto& vector) { test::drive(rtl, vector); },
+        check, willing);
 }
 
 TYPED_TEST(BoxTester, MeetsTheChildrenOfTheModelInItsOrderOneNodeACycle) {
-    const std::uint64_t count = test::vector_count(1'000'000);
+    const std::uint64_t count = test::vector_count(500'000);
     const auto cycles = compare<TypeParam>(count);
     ASSERT_TRUE(cycles);
     EXPECT_EQ(cycles->total, cycles->first_result + count - 1);

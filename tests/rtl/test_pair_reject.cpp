@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstring>
 
 #include "hesitant.hpp"
 #include "model/exact_triangle.hpp"
-#include "model/pair_test.hpp"
 #include "pair_vectors.hpp"
 #include "rtl_ref/harness/stream.hpp"
 #include "sim/config.hpp"
@@ -16,9 +14,7 @@
 namespace rtu {
 namespace {
 
-using model::Vec3;
 using sim::PairMode;
-using test::bits_of;
 using test::PairVector;
 
 template <class Top, PairMode Mode>
@@ -26,30 +22,6 @@ struct Build {
     using Unit = Top;
     static constexpr PairMode mode = Mode;
 };
-
-template <class Unit>
-void drive(Unit& unit, const PairVector& vector) {
-    static_assert(sizeof unit.vertices_i == sizeof vector.pair.vertices);
-    std::memcpy(&unit.vertices_i, &vector.pair.vertices, sizeof unit.vertices_i);
-    std::memcpy(&unit.origin_i, &vector.ray.origin, sizeof unit.origin_i);
-    unit.tag_i = vector.tag;
-    unit.has_second_i = vector.pair.has_second();
-    unit.is_degenerate_i = std::uint8_t(vector.pair.flags >> 8 & 3U);
-    unit.kz_i = vector.ray.kz;
-    unit.shear_x_i = bits_of(vector.ray.shear_x);
-    unit.shear_y_i = bits_of(vector.ray.shear_y);
-}
-
-// The model counts what its first pass lets through; with the other triangle out of the way, it is this one.
-std::uint32_t goes_on_in_model(const PairVector& vector) {
-    std::uint32_t goes_on = 0;
-    for (std::uint32_t triangle = 0; triangle < (vector.pair.has_second() ? 2U : 1U); ++triangle) {
-        model::LeafPair pair = vector.pair;
-        pair.flags |= 1U << (9 - triangle);
-        goes_on |= model::test_pair(pair, vector.ray).exact_tests << triangle;
-    }
-    return goes_on;
-}
 
 // Whether the ray passes all three edges on the same side, decided exactly.
 bool is_inside_exactly(const PairVector& vector, std::uint32_t triangle) {
@@ -87,7 +59,7 @@ Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
     Tally tally;
     const auto check = [&](const auto& rtl, const PairVector& vector) {
         if (testing::Test::HasFatalFailure()) return;
-        const std::uint32_t expected = goes_on_in_model(vector);
+        const std::uint32_t expected = test::goes_on_in_model(vector);
         ++tally.outcomes[expected];
         tally.triangles += vector.pair.has_second() ? 2 : 1;
         ASSERT_EQ(rtl.tag_o, vector.tag);
@@ -99,7 +71,7 @@ Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
         }
     };
     tally.cycles = rtl::run_stream(
-        unit, count, draw, [](auto& rtl, const auto& vector) { drive(rtl, vector); }, check, willing);
+        unit, count, draw, [](auto& rtl, const auto& vector) { test::drive(rtl, vector); }, check, willing);
     return tally;
 }
 
