@@ -100,7 +100,7 @@ Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
     const auto check = [&](const Vexact_side& rtl, const Edge& edge) {
         if (testing::Test::HasFatalFailure()) return;
         const int expected = int(side_in_model(edge));
-        ++tally.sides[std::size_t(expected + 1)];
+        ++tally.sides[std::uint32_t(expected + 1)];
         ASSERT_EQ(rtl.tag_o, edge.tag);
         ASSERT_EQ(int(rtl.is_positive_o) - int(rtl.is_negative_o), expected);
     };
