@@ -12,6 +12,7 @@
 
 #include "apps/config_command.hpp"
 #include "apps/exit_code.hpp"
+#include "apps/methods_command.hpp"
 #include "apps/pairing_command.hpp"
 #include "apps/run_command.hpp"
 #include "apps/standard_output.hpp"
@@ -32,14 +33,16 @@ constexpr const char* footer =
     "  rtusim run bunny.glb --check            a glTF file, every hit verified\n"
     "  rtusim run --help                       all options of a run\n"
     "  rtusim pairing bunny.glb                what triangle pairing does to the hardware\n"
+    "  rtusim methods                          how fast each ray-triangle test is on this host\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (!app.get_subcommands().empty()) return error.what();
     const std::vector<std::string> rest = app.remaining();
-    return rest.empty() ? "expected a command, run, pairing or config"
-                        : fmt::format("expected a command, run, pairing or config, got '{}'", rest.front());
+    return rest.empty()
+               ? "expected a command, run, pairing, methods or config"
+               : fmt::format("expected a command, run, pairing, methods or config, got '{}'", rest.front());
 }
 
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -77,6 +80,7 @@ int run_cli(int argc, char** argv) {
     std::function<int()> command;
     add_run_command(app, command);
     add_pairing_command(app, command);
+    add_methods_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

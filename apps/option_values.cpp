@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "model/error.hpp"
+#include "model/one_line.hpp"
 #include "model/regular_file.hpp"
 #include "study/output_file.hpp"
 
@@ -23,6 +24,27 @@ std::optional<std::uint64_t> parse_number(std::string_view text) {
 
 std::optional<fs::path> optional_path(const std::string& text) {
     return text.empty() ? std::nullopt : std::optional<fs::path>(text);
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+std::vector<std::string> parse_list(std::string_view option, std::string_view text) {
+    std::vector<std::string> parts;
+    if (text.empty()) return parts;
+    for (const std::string_view part : split(text)) {
+        if (std::ranges::find(parts, part) != parts.end())
+            throw Error("{}: '{}' is given twice", option, model::one_line(part));
+        parts.emplace_back(part);
+    }
+    return parts;
 }
 
 std::uint64_t parse_seed(std::string_view text) {
@@ -47,14 +69,12 @@ model::Resolution parse_resolution(std::string_view text) {
 
 std::vector<model::WorkloadKind> parse_workloads(std::string_view text) {
     std::vector<model::WorkloadKind> kinds;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const model::WorkloadKind kind = model::parse_workload_kind(text.substr(begin, end - begin));
+    for (const std::string_view name : split(text)) {
+        const model::WorkloadKind kind = model::parse_workload_kind(name);
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) {
             throw Error("--workload: '{}' is given twice", to_string(kind));
         }
         kinds.push_back(kind);
-        begin = end + 1;
     }
     return kinds;
 }

@@ -19,6 +19,12 @@ namespace rtu::apps {
 /// Nothing for an empty text: an option that was not given.
 [[nodiscard]] std::optional<std::filesystem::path> optional_path(const std::string& text);
 
+/// The parts between the commas of "a,b,c".
+[[nodiscard]] std::vector<std::string_view> split(std::string_view text);
+
+/// The same for an option that may not name anything twice; nothing for an empty text.
+[[nodiscard]] std::vector<std::string> parse_list(std::string_view option, std::string_view text);
+
 [[nodiscard]] std::uint64_t parse_seed(std::string_view text);
 
 /// "640x480".

@@ -60,8 +60,8 @@ TEST_F(CommandLineErrors, WrongUsageIsExitCodeTwo) {
 }
 
 TEST_F(CommandLineErrors, AnUnknownCommandIsNamed) {
-    EXPECT_THAT(run({"fly"}).err, HasSubstr("expected a command, run, pairing or config, got 'fly'"));
-    EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, pairing or config ("));
+    EXPECT_THAT(run({"fly"}).err, HasSubstr("expected a command, run, pairing, methods or config, got 'fly'"));
+    EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, pairing, methods or config ("));
 }
 
 TEST_F(CommandLineErrors, BadValuesAreNamedInOneLine) {

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "study/csv.hpp"
+#include "study/methods_text.hpp"
+
+namespace rtu::study {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(std::optional<double> value, double unit = 1) {
+    return value ? Json(*value / unit) : Json(nullptr);
+}
+
+Json cycles(const MethodsReport& report, std::optional<double> per_second) {
+    return per_second ? Json(report.clock_hz / *per_second) : Json(nullptr);
+}
+
+// One list of names and values serves JSON and CSV.
+Json row_json(const MethodsReport& report, const MethodsRow& row) {
+    return {{"workload", row.workload},
+            {"method", row.kernel.method.name},
+            {"title", row.kernel.method.title},
+            {"form", name_of(row.kernel.form)},
+            {"width", row.kernel.width},
+            {"stored_bytes", row.kernel.method.stored_bytes},
+            {"tests", row.tests},
+            {"hit_share", row.hit_share},
+            {"mtests_per_second", row.tests_per_second / 1e6},
+            {"first_pass_mtests_per_second", number(row.first_pass_tests_per_second, 1e6)},
+            {"worst_mtests_per_second", number(row.worst_tests_per_second, 1e6)},
+            {"precompute_mtriangles_per_second", number(row.precompute_triangles_per_second, 1e6)},
+            {"cycles_per_test", cycles(report, row.tests_per_second)},
+            {"worst_cycles_per_test", cycles(report, row.worst_tests_per_second)},
+            {"ratio_to_wald", number(ratio_to_wald(report, row))}};
+}
+
+Json scaling_json(const MethodsReport& report) {
+    Json array = Json::array();
+    for (const MethodsScalingRow& row : report.scaling)
+        array.push_back({{"method", row.method},
+                         {"tests", row.tests},
+                         {"seconds", row.seconds},
+                         {"mtests_per_second", double(row.tests) / row.seconds / 1e6}});
+    return array;
+}
+
+Json published_json() {
+    Json array = Json::array();
+    for (const PublishedSpeed& speed : published_speeds())
+        array.push_back({{"method", speed.method},
+                         {"single_mtests_per_second", speed.single},
+                         {"single_worst_mtests_per_second", speed.single_worst},
+                         {"packets_mtests_per_second", number(speed.packets)},
+                         {"packets_worst_mtests_per_second", number(speed.packets_worst)},
+                         {"precompute_mtriangles_per_second", speed.precompute}});
+    return {{"source", "Havel and Herout 2011, Tables I and II, Core 2 Duo E8200, Microsoft compiler"},
+            {"rows", array}};
+}
+
+std::string csv_cell(const Json& value) {
+    if (value.is_null()) return "";
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
+std::string methods_json(const MethodsReport& report) {
+    Json document{{"version", report.version},     {"instruction_set", report.instruction_set},
+                  {"seed", report.seed},           {"triangle_count", report.triangle_count},
+                  {"ray_count", report.ray_count}, {"repeats", report.repeats},
+                  {"clock_hz", report.clock_hz}};
+    document["rows"] = Json::array();
+    for (const MethodsRow& row : report.rows) document["rows"].push_back(row_json(report, row));
+    document["scaling"] = scaling_json(report);
+    document["published"] = published_json();
+    // A scene's name is a file's name, and that need not be UTF-8.
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string methods_csv(const MethodsReport& report) {
+    std::string text;
+    for (const MethodsRow& row : report.rows) {
+        std::vector<std::string> names, cells;
+        const Json values = row_json(report, row);
+        for (const auto& [name, value] : values.items()) {
+            names.push_back(name);
+            cells.push_back(csv_cell(value));
+        }
+        if (text.empty()) text = csv_line(names);
+        text += csv_line(cells);
+    }
+    return text;
+}
+
+}  // namespace rtu::study
