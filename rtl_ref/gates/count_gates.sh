@@ -30,15 +30,16 @@ synthesise() {
         read_verilog -sv ${packages[*]} $(ls ./*/"$top.sv")
         ${setting:+chparam -set ${setting/=/ } $top}
         hierarchy -top $top ${folders[*]}
+        rename -top unit
         setattr -mod -set keep_hierarchy 1 fp32_mul
         setattr -mod -set keep_hierarchy 1 fp32_add
-        synth -flatten -top $top
+        synth -flatten -top unit
         dfflegalize -cell \$_DFF_P_ x -cell \$_DFFE_PP_ x -cell \$_DFF_PN0_ x -cell \$_DFFE_PN0P_ x
         design -save generic
         techmap -map gates/flip_flops.v
         abc -liberty gates/nand2.lib
         opt_clean
-        tee -q -o $work/area.txt stat -liberty gates/nand2.lib -top $top
+        tee -q -o $work/area.txt stat -liberty gates/nand2.lib -top unit
         design -load generic
         abc -fast -g AND,NAND,OR,NOR,XOR,XNOR,MUX
         setattr -mod -unset keep_hierarchy *

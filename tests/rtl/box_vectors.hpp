@@ -31,7 +31,8 @@ class BoxReference {
     /// The children that the ray meets, the nearest on top; a child's address is 64 times its index.
     const model::TraversalStack& visit(const BoxVector<Width>& vector) {
         model::Node<Width> node = vector.node;
-        for (std::uint32_t i = 0; i < Width; ++i) node.child[i] = model::NodeRef::inner(64 * i);
+        for (std::uint32_t i = 0; i < Width; ++i)
+            node.child[i] = model::NodeRef::inner(std::uint64_t{64} * i);
         std::memcpy(image_.blocks.data(), &node, sizeof node);
         traversal_.ray = vector.ray;
         traversal_.closest.hit.t = vector.t_end;

@@ -9,7 +9,7 @@ if ! command -v yosys >/dev/null; then
     echo "skipped: Yosys is not installed"
     exit 77
 fi
-fresh=$("$gates/count_gates.sh" fp32_mul fp32_add fp32_compare near_to_far:Width=2)
+fresh=$("$gates/count_gates.sh" fp32_add fp32_compare near_to_far:Width=2)
 if [[ $(head -n1 <<<"$fresh") != $(head -n1 "$gates/gates.csv") ]]; then
     echo "skipped: gates.csv was made by another version: $(head -n1 "$gates/gates.csv")"
     exit 77
