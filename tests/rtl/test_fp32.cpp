@@ -67,6 +67,7 @@ TEST_P(Fp32, GivesTheBitsOfTheHost) {
         if (const auto x = sums.next(in)) expect_result("+", *x, unit.sum_o, x->a + x->b);
         if (const auto x = comparisons.next(in)) {
             ASSERT_EQ(bool(unit.is_less_o), x->a < x->b) << x->a << " < " << x->b;
+            expect_result("* 2^-20, not", *x, unit.halved_o, x->a * 0x1p-20F);
             expect_result("max", *x, unit.larger_o, std::max(x->a, x->b));
             expect_result("min", *x, unit.smaller_o, std::min(x->a, x->b));
         }
