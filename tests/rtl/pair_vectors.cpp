@@ -20,10 +20,21 @@ std::uint32_t goes_on_in_model(const PairVector& vector) {
     return goes_on;
 }
 
+namespace {
+
+void set_ray(PairVector& vector, Vec3 origin, Vec3 direction) {
+    if (direction == Vec3{}) direction.z = -1;
+    vector.ray = model::make_ray_setup({origin, 0, direction, std::numeric_limits<float>::infinity()}, {});
+}
+
+}  // namespace
+
 PairVector DrawPair::operator()() {
     PairVector vector;
     vector.tag = std::uint8_t(random_.bits());
-    if (random_.one_in(4)) {
+    if (random_.one_in(16)) {
+        draw_tiny(vector);
+    } else if (random_.one_in(5)) {
         draw_numbers(vector);
     } else {
         draw_scene(vector);
@@ -97,9 +108,14 @@ float DrawPair::number() {
 // Every input on its own.
 void DrawPair::draw_numbers(PairVector& vector) {
     for (Vec3& v : vector.pair.vertices) v = numbers();
-    Vec3 direction = numbers();
-    if (direction == Vec3{}) direction.z = -1;
-    vector.ray = model::make_ray_setup({numbers(), 0, direction, std::numeric_limits<float>::infinity()}, {});
+    set_ray(vector, numbers(), numbers());
+}
+
+// So small that edge functions underflow.
+void DrawPair::draw_tiny(PairVector& vector) {
+    const float size = std::ldexp(1.0F, -60 - int(random_.below(12)));
+    for (Vec3& v : vector.pair.vertices) v = random_.point(-size, size);
+    set_ray(vector, random_.point(-size, size), random_.point(-1, 1));
 }
 
 }  // namespace rtu::test

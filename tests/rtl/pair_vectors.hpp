@@ -49,6 +49,7 @@ class DrawPair {
     model::Vec3 draw_target(const model::LeafPair& pair);
     void draw_scene(PairVector& vector);
     void draw_numbers(PairVector& vector);
+    void draw_tiny(PairVector& vector);
 
     RandomBits random_;
 };
