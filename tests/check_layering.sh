@@ -12,6 +12,7 @@ declare -A may_include=(
     [sim]='model|traces|sim'
     [study]='model|traces|sim|study'
     [apps]='model|traces|sim|study|apps'
+    [rtl_ref]='model|rtl_ref'
 )
 breaches=0
 
@@ -27,7 +28,7 @@ breach() {
     done < <(grep -rnE --include='*.[ch]pp' -- "$pattern" "$folder" || true)
 }
 
-for folder in model traces sim study apps; do
+for folder in model traces sim study apps rtl_ref; do
     [[ -d $folder ]] || continue
     allowed=${may_include[$folder]}
     breach "$folder" "expected an include from ${allowed//|/, }" '^ *# *include *"' "^ *# *include *\"($allowed)/[a-z]"

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Counts the gates of units of the RTL reference with Yosys, in NAND2 equivalents (nand2.lib), one CSV row each:
+#
+#   unit             module, and its parameters
+#   gates            all of it
+#   register_bits    flip-flops; register_gates: those of the gates that are theirs
+#   multipliers      binary32 multipliers and adders in it (fp32_mul, fp32_add)
+#   adders
+#   depth            two-input gates and multiplexers between two registers, at most; mapped without restructuring
+#
+# Multipliers and adders are synthesised once and counted as often as they are used; the rest of a unit is flattened.
+# usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value; without any, all units of gates.csv
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+
+all_units=(fp32_mul fp32_add fp32_compare near_to_far:Width=2 near_to_far:Width=4 near_to_far:Width=6
+    near_to_far:Width=8 box_tester:Width=2 box_tester:Width=4 box_tester:Width=6 box_tester:Width=8 pair_reject:Mode=0
+    pair_reject:Mode=1 pair_reject:Mode=2 exact_side)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# A unit's modules are read as they are needed: what Yosys makes of one depends a little on everything that it has read.
+mapfile -t packages < <(ls ./*/*_pkg.sv)
+folders=(-libdir fp -libdir box -libdir pair -libdir exact)
+
+# synthesise MODULE [PARAMETER=VALUE]: leaves area.txt and depth.txt in the work folder.
+synthesise() {
+    local top=$1 setting=${2:-}
+    yosys -q -p "
+        read_verilog -sv ${packages[*]} $(ls ./*/"$top.sv")
+        ${setting:+chparam -set ${setting/=/ } $top}
+        hierarchy -top $top ${folders[*]}
+        rename -top unit
+        setattr -mod -set keep_hierarchy 1 fp32_mul
+        setattr -mod -set keep_hierarchy 1 fp32_add
+        synth -flatten -top unit
+        dfflegalize -cell \$_DFF_P_ x -cell \$_DFFE_PP_ x -cell \$_DFF_PN0_ x -cell \$_DFFE_PN0P_ x
+        design -save generic
+        techmap -map gates/flip_flops.v
+        abc -liberty gates/nand2.lib
+        opt_clean
+        tee -q -o $work/area.txt stat -liberty gates/nand2.lib -top unit
+        design -load generic
+        abc -fast -g AND,NAND,OR,NOR,XOR,XNOR,MUX
+        setattr -mod -unset keep_hierarchy *
+        flatten
+        tee -q -o $work/depth.txt ltp -noff" >"$work/log.txt" 2>&1 || {
+        cat "$work/log.txt" >&2
+        return 1
+    }
+}
+
+# The last counts of a kind of cell are those of the whole design.
+row() {
+    awk -v unit="$1" '
+        $1 ~ /^(DFF|DFFE|DFFR|DFFRE|fp32_mul|fp32_add)$/ && NF == 2 && $2 ~ /^[0-9]+$/ { count[$1] = $2 }
+        /Chip area for (top )?module/ { gates = $NF }
+        /Longest topological path/ { sub(/.*length=/, ""); depth = $0 + 0 }
+        END {
+            bits = count["DFF"] + count["DFFE"] + count["DFFR"] + count["DFFRE"]
+            registers = 5.67 * count["DFF"] + 5.80 * count["DFFE"] + 6.67 * count["DFFR"] + 6.80 * count["DFFRE"]
+            printf "%s,%.0f,%d,%.0f,%d,%d,%d\n", unit, gates, bits, registers, count["fp32_mul"], count["fp32_add"], depth
+        }' "$work/area.txt" "$work/depth.txt"
+}
+
+(($# > 0)) || set -- "${all_units[@]}"
+echo "# $(yosys -V | cut -d' ' -f1,2), gates/count_gates.sh"
+echo "unit,gates,register_bits,register_gates,multipliers,adders,depth"
+for unit in "$@"; do
+    IFS=: read -r module parameter <<<"$unit"
+    synthesise "$module" "$parameter"
+    row "$unit"
+done
