@@ -1,6 +1,7 @@
 // Triangles a second of pair_triangles, by position, and its sort against the standard library's.
 
 #include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 #include "bench_scenes.hpp"
 #include "model/edge_bbsa.hpp"
+#include "model/pair_candidates.hpp"
 #include "model/pairing.hpp"
 #include "model/radix_sort.hpp"
 #include "model/weld.hpp"
@@ -72,9 +74,17 @@ void pair_scene(benchmark::State& state, const char* name, const char* method) {
     pair_mesh(state, load_scene(name), parse_pairing_method(method));
 }
 
+void pair_scene_on_threads(benchmark::State& state, const char* name, const char* method) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    std::size_t(state.range(0)));
+    pair_scene(state, name, method);
+}
+
 /// Time per triangle from 10 k to 10 M triangles; the sheet's triangles in file order, so that only the
 /// amount of memory changes.
 void pair_size(benchmark::State& state, const char* method) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    std::size_t(state.range(1)));
     pair_mesh(state, sheet(std::uint32_t(state.range(0))), parse_pairing_method(method));
 }
 
@@ -82,7 +92,10 @@ void pair_size(benchmark::State& state, const char* method) {
 std::vector<PairCandidate> unsorted_candidates(const TriangleMesh& mesh) {
     ScratchMemory memory(mesh.triangles.size() * 256 + mesh.positions.size() * 64 + 4096);
     const IdentifiedMesh identified{mesh.triangles, mesh.positions, weld_positions(mesh.positions, memory)};
-    const auto sorted = edge_bbsa_candidates(identified, memory);
+    const auto area_of = [&mesh](std::uint32_t lower, std::uint32_t upper, HalfEdge, HalfEdge) {
+        return edge_box_area(mesh.positions[lower], mesh.positions[upper]);
+    };
+    const auto sorted = sorted_candidates(identified, memory, area_of);
     std::vector<PairCandidate> candidates(sorted.begin(), sorted.end());
     std::ranges::sort(candidates, {}, [](const PairCandidate& c) { return c.first.index; });
     return candidates;
@@ -133,12 +146,18 @@ BENCHMARK_CAPTURE(pair_scene, dragon_edge_bbsa_compressed, "dragon", "edge_bbsa_
 BENCHMARK_CAPTURE(pair_scene, dragon_sa_exchange, "dragon", "sa_exchange")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pair_scene, dragon_sa_saving, "dragon", "sa_saving")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pair_scene, dragon_maximum, "dragon", "maximum")->Unit(benchmark::kMillisecond);
-// 2 n^2 triangles.
+BENCHMARK_CAPTURE(pair_scene_on_threads, bunny_edge_bbsa, "bunny", "edge_bbsa")
+    ->DenseRange(1, 2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pair_scene_on_threads, dragon_edge_bbsa, "dragon", "edge_bbsa")
+    ->DenseRange(1, 2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+// 2 n^2 triangles on so many threads.
 BENCHMARK_CAPTURE(pair_size, edge_bbsa, "edge_bbsa")
-    ->Arg(71)
-    ->Arg(224)
-    ->Arg(707)
-    ->Arg(2236)
+    ->ArgsProduct({{71, 224, 707, 2236}, {1, 2}})
+    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(sort_candidates, bunny_radix, "bunny", by_radix)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(sort_candidates, bunny_std_sort, "bunny", by_std_sort)->Unit(benchmark::kMillisecond);

@@ -9,6 +9,7 @@
 
 #include "model/edge_bbsa.hpp"
 #include "model/edge_ring.hpp"
+#include "model/edge_table.hpp"
 #include "model/radix_sort.hpp"
 
 namespace rtu::model {

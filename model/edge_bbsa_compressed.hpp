@@ -12,6 +12,7 @@
 
 #include "model/aabb.hpp"
 #include "model/matching.hpp"
+#include "model/pairing.hpp"
 #include "model/scratch_memory.hpp"
 #include "model/weld.hpp"
 
@@ -27,13 +28,7 @@ using CompressedEdgeKey = std::array<std::uint32_t, 3>;
 /// stand in the file.
 [[nodiscard]] Matching match_compressed(const IdentifiedMesh& mesh, ScratchMemory& memory);
 
-/// What the compression does to the candidates, before the greedy scan.
-struct CompressionCost {
-    std::uint64_t exact_candidates = 0;  ///< of the uncompressed table
-    std::uint64_t candidates = 0;        ///< neighbours with equal keys, of two different triangles
-    std::uint64_t wrong_candidates = 0;  ///< of those, without a common edge
-    std::uint64_t lost_candidates = 0;   ///< exact ones whose triangles are no candidate of the compressed
-};
+/// The candidates of a CompressionCost; its pair counts are left 0.
 [[nodiscard]] CompressionCost compression_cost(const IdentifiedMesh& mesh, ScratchMemory& memory);
 
 }  // namespace rtu::model

@@ -124,7 +124,7 @@ Matching match_maximum(const IdentifiedMesh& mesh, ScratchMemory& memory) {
     Mates mates;
     {
         const ScratchMemory::Scope scope(memory);
-        mates = mates_of(match_greedily(edge_bbsa_candidates(mesh, memory), triangle_count, memory));
+        mates = mates_of(match_by_edge_area(mesh, EdgeRings(mesh, memory), memory));
     }
     AlternatingSearch search(graph, mates);
     for (std::uint32_t t = 0; t < triangle_count; ++t) {

@@ -3,11 +3,13 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <vector>
 
+#include "model/blocks.hpp"
 #include "model/edge_bbsa.hpp"
 #include "model/edge_bbsa_compressed.hpp"
-#include "model/edge_table.hpp"
 #include "model/error.hpp"
+#include "model/half_edge.hpp"
 #include "model/matching.hpp"
 #include "model/maximum_matching.hpp"
 #include "model/pair_layout.hpp"
@@ -21,9 +23,9 @@ namespace {
 
 /// Room for everything that a method takes from the scratch memory.
 std::size_t scratch_bytes(const TriangleMesh& mesh) {
-    constexpr std::size_t a_triangle =
-        3 * (sizeof(BucketedHalfEdge) + 2 * sizeof(PairCandidate)) + sizeof(HalfEdge);
-    constexpr std::size_t a_vertex = 6 * sizeof(std::uint32_t);  // up to 4 slots of the hash table
+    constexpr std::size_t half_edge_record = 16;  // the largest, of edge_bbsa_compressed; two tables of them
+    constexpr std::size_t a_triangle = 6 * half_edge_record + sizeof(HalfEdge);
+    constexpr std::size_t a_vertex = sizeof(std::uint32_t) + 16;  // its identity and its record in welding
     constexpr std::size_t rounding = 1024;
     return mesh.triangles.size() * a_triangle + mesh.positions.size() * a_vertex + rounding;
 }
@@ -43,7 +45,7 @@ Matching match(const IdentifiedMesh& mesh, PairingMethod method, ScratchMemory& 
         case PairingKind::Window:
             return match_in_window(mesh, method.window, memory);
         case PairingKind::EdgeBbsa:
-            return match_greedily(edge_bbsa_candidates(mesh, memory), triangle_count, memory);
+            return match_by_edge_area(mesh, EdgeRings(mesh, memory), memory);
         case PairingKind::EdgeBbsaCompressed:
             return match_compressed(mesh, memory);
         case PairingKind::SaExchange:
@@ -56,31 +58,76 @@ Matching match(const IdentifiedMesh& mesh, PairingMethod method, ScratchMemory& 
     fail_check(__FILE__, __LINE__, "unknown pairing kind");
 }
 
+TrianglePair entry_of(const IdentifiedMesh& mesh, const Matching& matching, std::uint32_t t) {
+    const HalfEdge second = matching.partner(t);
+    if (second.triangle() == t) return make_lone(mesh, t);
+    return make_pair(mesh, matching.partner(second.triangle()), second);
+}
+
+bool is_first(const Matching& matching, std::uint32_t t) { return matching.partner(t).triangle() >= t; }
+
 Pairing collect(const IdentifiedMesh& mesh, const Matching& matching) {
     Pairing result;
     result.pair_count = matching.pair_count();
     result.single_count = mesh.triangles.size() - 2 * result.pair_count;
-    result.pairs.reserve(result.pair_count + result.single_count);
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (matching.is_free(t)) {
-            result.pairs.push_back(make_lone(mesh, t));
-        } else if (const HalfEdge second = matching.partner(t); second.triangle() > t) {
-            const HalfEdge first = matching.partner(second.triangle());
-            result.pairs.push_back(make_pair(mesh, first, second));
+    result.pairs.resize(result.pair_count + result.single_count);
+    const Blocks blocks = Blocks::of_items(mesh.triangles.size());
+    std::vector<std::size_t> places(blocks.count());  // counts, then where a block's entries begin
+    blocks.for_each([&](std::size_t block, std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (auto t = std::uint32_t(begin); t < end; ++t) count += std::size_t{is_first(matching, t)};
+        places[block] = count;
+    });
+    std::exclusive_scan(places.begin(), places.end(), places.begin(), std::size_t{0});
+    blocks.for_each([&](std::size_t block, std::size_t begin, std::size_t end) {
+        // A list first: whether a triangle is the first of its pair is hard to predict.
+        std::vector<std::uint32_t> firsts(end - begin);
+        std::size_t count = 0;
+        for (auto t = std::uint32_t(begin); t < end; ++t) {
+            firsts[count] = t;
+            count += std::size_t{is_first(matching, t)};
         }
-    }
+        TrianglePair* next = result.pairs.data() + places[block];
+        for (const std::uint32_t t : std::span(firsts).first(count)) *next++ = entry_of(mesh, matching, t);
+    });
     return result;
 }
+
+void check_size(const TriangleMesh& mesh) {
+    constexpr std::size_t index_end = std::numeric_limits<std::uint32_t>::max();
+    RTU_CHECK(mesh.triangles.size() <= index_end / 3, "{} triangles", mesh.triangles.size());
+    RTU_CHECK(mesh.positions.size() < index_end, "{} vertices", mesh.positions.size());
+}
+
+/// A mesh whose vertices are identified, with the memory of everything that is computed from it.
+struct Workspace {
+    ScratchMemory memory;
+    IdentifiedMesh mesh;
+
+    Workspace(const TriangleMesh& source, EdgeIdentity identity)
+        : memory(scratch_bytes(source)),
+          mesh{source.triangles, source.positions, vertex_ids(source, identity, memory)} {}
+};
 
 }  // namespace
 
 Pairing pair_triangles(const TriangleMesh& mesh, PairingMethod method, EdgeIdentity identity) {
-    constexpr std::size_t index_end = std::numeric_limits<std::uint32_t>::max();
-    RTU_CHECK(mesh.triangles.size() <= index_end / 3, "{} triangles", mesh.triangles.size());
-    RTU_CHECK(mesh.positions.size() < index_end, "{} vertices", mesh.positions.size());
-    ScratchMemory memory(scratch_bytes(mesh));
-    const IdentifiedMesh identified{mesh.triangles, mesh.positions, vertex_ids(mesh, identity, memory)};
-    return collect(identified, match(identified, method, memory));
+    check_size(mesh);
+    Workspace workspace(mesh, identity);
+    return collect(workspace.mesh, match(workspace.mesh, method, workspace.memory));
+}
+
+CompressionCost compression_cost(const TriangleMesh& mesh, EdgeIdentity identity) {
+    check_size(mesh);
+    Workspace workspace(mesh, identity);
+    CompressionCost cost = compression_cost(workspace.mesh, workspace.memory);
+    const auto pair_count = [&](PairingKind kind) {
+        const ScratchMemory::Scope scope(workspace.memory);
+        return match(workspace.mesh, {kind, 0}, workspace.memory).pair_count();
+    };
+    cost.exact_pairs = pair_count(PairingKind::EdgeBbsa);
+    cost.pairs = pair_count(PairingKind::EdgeBbsaCompressed);
+    return cost;
 }
 
 }  // namespace rtu::model

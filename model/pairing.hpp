@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "model/huge_pages.hpp"
 #include "model/mesh.hpp"
 #include "model/pair.hpp"
 
@@ -46,9 +46,9 @@ enum class EdgeIdentity : std::uint8_t { Index, Position };
 
 /// A partition of a mesh's triangles into pairs and lone triangles.
 struct Pairing {
-    std::vector<TrianglePair> pairs;  ///< every triangle exactly once, ordered by their first primitive id
-    std::uint64_t pair_count = 0;     ///< entries with two triangles
-    std::uint64_t single_count = 0;   ///< entries with one
+    LargeArray<TrianglePair> pairs;  ///< every triangle exactly once, ordered by their first primitive id
+    std::uint64_t pair_count = 0;    ///< entries with two triangles
+    std::uint64_t single_count = 0;  ///< entries with one
 
     /// Share of the triangles that are in a pair, in percent; 0 for an empty mesh.
     [[nodiscard]] double paired_percent() const {
@@ -62,5 +62,19 @@ struct Pairing {
 /// Sources: window:N, edge_bbsa and edge_bbsa_compressed are [AF] (docs/model.md); all are defined in
 /// docs/pairing.md.
 [[nodiscard]] Pairing pair_triangles(const TriangleMesh& mesh, PairingMethod method, EdgeIdentity identity);
+
+/// What the 16-byte half-edges of edge_bbsa_compressed cost. Candidates are neighbours of the sorted
+/// half-edge table with equal keys, of two different triangles, before the greedy scan.
+struct CompressionCost {
+    std::uint64_t exact_candidates = 0;  ///< of the uncompressed table
+    std::uint64_t candidates = 0;        ///< of the compressed one
+    std::uint64_t wrong_candidates = 0;  ///< of the compressed ones, those without a common edge
+    std::uint64_t lost_candidates = 0;   ///< exact ones whose triangles are no candidate of the compressed
+    std::uint64_t exact_pairs = 0;       ///< of edge_bbsa
+    std::uint64_t pairs = 0;             ///< of edge_bbsa_compressed
+};
+
+/// Deterministic. Pairs the mesh twice.
+[[nodiscard]] CompressionCost compression_cost(const TriangleMesh& mesh, EdgeIdentity identity);
 
 }  // namespace rtu::model

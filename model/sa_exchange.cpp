@@ -1,7 +1,6 @@
 #include "model/sa_exchange.hpp"
 
 #include <optional>
-#include <span>
 
 #include "model/edge_bbsa.hpp"
 #include "model/edge_ring.hpp"
@@ -16,15 +15,15 @@ constexpr double growth_cost = 0.5;
 
 class Exchange {
   public:
-    Exchange(const IdentifiedMesh& mesh, std::span<const HalfEdge> ring, Matching& matching)
-        : mesh_(mesh), ring_(ring), matching_(matching) {}
+    Exchange(const IdentifiedMesh& mesh, const EdgeRings& rings, Matching& matching)
+        : mesh_(mesh), rings_(rings), matching_(matching) {}
 
     /// Pairs a free triangle with the neighbour that it pays most to take away from its partner, if any.
     void try_take(std::uint32_t free) {
         const Aabb box = triangle_box(mesh_, free);
         std::optional<Take> best;
         for (std::uint32_t side = 3 * free; side < 3 * free + 3; ++side) {
-            const std::uint32_t neighbour = ring_[side].triangle();
+            const std::uint32_t neighbour = rings_.next({side}).triangle();
             if (neighbour == free || matching_.is_free(neighbour)) continue;
             const Take take = consider({side}, box);
             if (take.gain > (best ? best->gain : 0)) best = take;
@@ -49,7 +48,7 @@ class Exchange {
 
     /// What taking the neighbour on side `own` changes; `own_box` is that of the side's triangle.
     [[nodiscard]] Take consider(HalfEdge own, const Aabb& own_box) const {
-        Take take{own, ring_[own.index], 0, std::nullopt};
+        Take take{own, rings_.next(own), 0, std::nullopt};
         const std::uint32_t taken = take.taken.triangle(), left = matching_.partner(taken).triangle();
         const Aabb taken_box = triangle_box(mesh_, taken), left_box = triangle_box(mesh_, left);
         take.gain = weight(own_box, taken_box) - weight(taken_box, left_box);
@@ -70,7 +69,7 @@ class Exchange {
                                                   std::uint32_t except) const {
         std::optional<Offer> best;
         for (std::uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
-            const HalfEdge own{side}, other = ring_[side];
+            const HalfEdge own{side}, other = rings_.next({side});
             const std::uint32_t neighbour = other.triangle();
             if (neighbour == triangle || neighbour == except || !matching_.is_free(neighbour)) continue;
             const double value = weight(box, triangle_box(mesh_, neighbour));
@@ -80,17 +79,16 @@ class Exchange {
     }
 
     const IdentifiedMesh& mesh_;
-    std::span<const HalfEdge> ring_;
+    const EdgeRings& rings_;
     Matching& matching_;
 };
 
 }  // namespace
 
 Matching match_with_exchanges(const IdentifiedMesh& mesh, ScratchMemory& memory) {
-    const auto candidates = edge_bbsa_candidates(mesh, memory);
-    Matching matching = match_greedily(candidates, std::uint32_t(mesh.triangles.size()), memory);
-    const auto ring = edge_rings(mesh, candidates, memory);
-    Exchange exchange(mesh, ring, matching);
+    const EdgeRings rings(mesh, memory);
+    Matching matching = match_by_edge_area(mesh, rings, memory);
+    Exchange exchange(mesh, rings, matching);
     for (std::uint32_t t = 0; t < matching.triangle_count(); ++t) {
         if (matching.is_free(t)) exchange.try_take(t);
     }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -9,6 +7,7 @@
 #include <type_traits>
 
 #include "model/error.hpp"
+#include "model/huge_pages.hpp"
 
 namespace rtu::model {
 
@@ -18,7 +17,8 @@ class ScratchMemory {
   public:
     /// Only what is touched takes memory, so a generous capacity costs nothing.
     explicit ScratchMemory(std::size_t capacity_bytes)
-        : block_(allocate(capacity_bytes)), capacity_bytes_(capacity_bytes) {}
+        : block_(static_cast<std::byte*>(allocate_array(capacity_bytes)), Free{capacity_bytes}),
+          capacity_bytes_(capacity_bytes) {}
 
     /// An array of `count` indeterminate values, until the innermost scope ends. Throws std::logic_error
     /// beyond the capacity.
@@ -49,21 +49,12 @@ class ScratchMemory {
 
   private:
     static constexpr std::size_t alignment = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
-    static constexpr std::align_val_t huge_page{std::size_t{1} << 21};
     struct Free {
-        void operator()(std::byte* block) const { ::operator delete[](block, huge_page); }
+        std::size_t size_bytes;
+        void operator()(std::byte* block) const { free_array(block, size_bytes); }
     };
-    using Block = std::unique_ptr<std::byte[], Free>;
 
-    /// Asks for huge pages: 4 KiB ones cost a fault each at their first touch, and random accesses to
-    /// tens of MiB miss the address translation's cache. Where there are none the request does nothing.
-    static Block allocate(std::size_t size_bytes) {
-        Block block(static_cast<std::byte*>(::operator new[](size_bytes, huge_page)));
-        madvise(block.get(), size_bytes, MADV_HUGEPAGE);
-        return block;
-    }
-
-    Block block_;
+    std::unique_ptr<std::byte[], Free> block_;
     std::size_t capacity_bytes_;
     std::size_t used_bytes_ = 0;
 };

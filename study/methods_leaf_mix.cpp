@@ -18,7 +18,7 @@ using model::methods::RayResult;
 
 constexpr std::uint32_t for_sample = 0x7263;
 
-// Calls `take` with each pair that the ray tests.
+// Calls `take` with each pair that the ray tests, and where the ray ends by then.
 template <class Take>
 void walk(const model::MemoryImage& image, const model::Ray& ray, model::RayKind kind, Take take) {
     model::Traversal traversal;
@@ -30,7 +30,7 @@ void walk(const model::MemoryImage& image, const model::Ray& ray, model::RayKind
             continue;
         }
         for (std::uint32_t i = 0; i < ref.pair_count() && !is_satisfied(traversal); ++i) {
-            take(image.leaf_pair(ref, i));
+            take(image.leaf_pair(ref, i), traversal.closest.hit.t);
             visit_pair(traversal, image, i);
         }
     } while (!is_satisfied(traversal) && pop(traversal));
@@ -46,9 +46,11 @@ std::vector<RayLeaves> sample(const model::MemoryImage& image, const model::Work
         const std::size_t begin = i * workload.rays.size() / count;
         const std::size_t end = (i + 1) * workload.rays.size() / count;
         model::RandomStream random(seed, for_sample, std::uint32_t(i));
-        RayLeaves one{workload.rays[begin + std::size_t(random.next() * float(end - begin))], {}};
-        walk(image, one.ray, workload.ray_kind,
-             [&](const model::LeafPair& pair) { take(pair, one.triangles); });
+        RayLeaves one{workload.rays[begin + std::size_t(random.next() * float(end - begin))], {}, {}};
+        walk(image, one.ray, workload.ray_kind, [&](const model::LeafPair& pair, float t_max) {
+            take(pair, one.triangles);
+            one.t_max.resize(one.triangles.size(), t_max);
+        });
         if (!one.triangles.empty()) mix.push_back(std::move(one));
     }
     return mix;
@@ -106,6 +108,18 @@ std::vector<RayLeaves> pair_mix(const model::MemoryImage& image, const model::Wo
                       triangles.push_back({v[0], v[1], v[2]});
                       triangles.push_back({v[0], v[2], v[3]});
                   });
+}
+
+model::methods::EarlyExits early_exits(std::span<const RayLeaves> mix) {
+    std::vector<model::Ray> rays;
+    std::vector<Corners> triangles;
+    for (const RayLeaves& leaves : mix)
+        for (std::size_t i = 0; i < leaves.triangles.size(); ++i) {
+            rays.push_back(leaves.ray);
+            rays.back().t_max = leaves.t_max[i];
+            triangles.push_back(leaves.triangles[i]);
+        }
+    return model::methods::count_early_exits(rays, triangles);
 }
 
 std::vector<MethodsRow> measure_leaf_mix(std::span<const Kernel> kernels, std::span<const RayLeaves> singles,

@@ -7,6 +7,7 @@
 
 #include "model/memory_image.hpp"
 #include "model/mesh.hpp"
+#include "model/methods/early_exits.hpp"
 #include "model/workload.hpp"
 #include "study/methods_bench.hpp"
 
@@ -16,7 +17,11 @@ namespace rtu::study {
 struct RayLeaves {
     model::Ray ray;
     std::vector<model::methods::Corners> triangles;
+    std::vector<float> t_max;  ///< [triangles.size()] where the ray ended when the triangle's turn came
 };
+
+/// What each half of Shevtsov's test rejects on these rays, which end where they ended in their traversal.
+[[nodiscard]] model::methods::EarlyExits early_exits(std::span<const RayLeaves> mix);
 
 /// A sample of at most `ray_count` of the workload's rays, one of each stretch of equal length; rays that
 /// test no triangle are left out.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/methods/early_exits.hpp"
 #include "model/methods/kernel.hpp"
 
 namespace rtu::study {
@@ -32,6 +33,12 @@ struct MethodsScalingRow {
     double seconds = 0;
 };
 
+/// What the halves of Shevtsov's test reject on a scene's own tests.
+struct MethodsEarlyExits {
+    std::string workload;  ///< scene/rays
+    model::methods::EarlyExits exits;
+};
+
 /// Published speeds of one method, in millions a second, and where they stand.
 struct PublishedSpeed {
     std::string_view method;
@@ -51,6 +58,7 @@ struct MethodsReport {
     double clock_hz = 0;  ///< of the core, measured among the repeats
     std::vector<MethodsRow> rows;
     std::vector<MethodsScalingRow> scaling;
+    std::vector<MethodsEarlyExits> early_exits;
 };
 
 }  // namespace rtu::study

@@ -50,7 +50,7 @@ MethodsProgress progress_of(const MethodsOptions& options, std::string what) {
 }
 
 void measure_scene(const MethodsOptions& options, const SceneSource& source, std::span<const Kernel> kernels,
-                   std::vector<MethodsRow>& rows) {
+                   MethodsReport& report) {
     tell(options, fmt::format("{}: pairing and building the tree", source.name()));
     const LoadedScene scene = load_scene(source);
     const BuiltScene built = build_scene(scene.mesh, {model::PairingKind::EdgeBbsa},
@@ -64,7 +64,8 @@ void measure_scene(const MethodsOptions& options, const SceneSource& source, std
         const std::string name = fmt::format("{}/{}", source.name(), workload.name);
         const auto measured =
             measure_leaf_mix(kernels, singles, pairs, name, options.repeats, progress_of(options, name));
-        rows.insert(rows.end(), measured.begin(), measured.end());
+        report.rows.insert(report.rows.end(), measured.begin(), measured.end());
+        report.early_exits.push_back({name, early_exits(singles)});
     }
 }
 
@@ -104,13 +105,14 @@ MethodsReport run_methods_study(const MethodsOptions& options) {
                          .ray_count = options.ray_count,
                          .repeats = options.repeats,
                          .rows = {},
-                         .scaling = {}};
+                         .scaling = {},
+                         .early_exits = {}};
     const std::vector<Kernel> kernels = wanted_kernels(options);
     const auto workload = random_methods_workload(options.triangle_count, options.ray_count, options.seed);
     report.clock_hz = measure_clock_hz();
     report.rows = measure_methods(kernels, workload, options.repeats, progress_of(options, "random"));
     measure_all_scaling(options, kernels, report.scaling);
-    for (const SceneSource& source : options.scenes) measure_scene(options, source, kernels, report.rows);
+    for (const SceneSource& source : options.scenes) measure_scene(options, source, kernels, report);
     report.clock_hz = std::max(report.clock_hz, measure_clock_hz());
     return report;
 }

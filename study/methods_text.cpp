@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/methods/operation_counts.hpp"
 #include "study/text_table.hpp"
 
 namespace rtu::study {
@@ -183,6 +184,69 @@ std::string leaf_table(const MethodsReport& report) {
     return "\nEach ray on the triangles of the leaves that it visits, its set-up included\n" + table.text();
 }
 
+std::string counts_text(const model::methods::OperationCounts& counts) {
+    return fmt::format("{} {} {} {}", counts.mul, counts.add, counts.div, counts.fusable);
+}
+
+bool is_measured(const MethodsReport& report, std::string_view method) {
+    return std::ranges::any_of(report.rows,
+                               [&](const MethodsRow& row) { return row.kernel.method.name == method; });
+}
+
+std::string operations_table(const MethodsReport& report) {
+    TextTable table({{"Method", Align::Left},
+                     {"Precomputation\nm a d f"},
+                     {"Soonest miss\nm a d f"},
+                     {"Full test\nm a d f"},
+                     {"Hit, with t, u, v\nm a d f"},
+                     {"Two, full\nm a d f"},
+                     {"Pair, one full\nm a d f"},
+                     {"Pair, both full\nm a d f"}});
+    for (const model::methods::MethodCounts& counts : model::methods::operation_counts()) {
+        if (!is_measured(report, counts.name)) continue;
+        const auto& single = counts.single;
+        std::vector<std::string> cells{std::string(counts.name), counts_text(counts.precomputation),
+                                       counts_text(single.rejected), counts_text(single.full),
+                                       counts_text(single.hit)};
+        model::methods::OperationCounts two = single.full;
+        two.mul *= 2, two.add *= 2, two.div *= 2, two.fusable *= 2;
+        cells.push_back(counts.pair ? counts_text(two) : "-");
+        cells.push_back(counts.pair ? counts_text(counts.pair->one_full) : "-");
+        cells.push_back(counts.pair ? counts_text(counts.pair->both_full) : "-");
+        table.add_row(cells);
+    }
+    return "\nOperations: multiplications, additions, divisions, and additions that can be fused with a "
+           "multiplication\n" +
+           table.text();
+}
+
+std::string early_exits_table(const MethodsReport& report) {
+    if (report.early_exits.empty()) return "";
+    TextTable table({{"Scene/rays", Align::Left},
+                     {"Tests"},
+                     {"Distance rejects\n%"},
+                     {"Aperture rejects\n%"},
+                     {"Both reject\n%"},
+                     {"Hits\n%"},
+                     {"Aperture first\nof distance first"}});
+    for (const MethodsEarlyExits& row : report.early_exits) {
+        const auto& e = row.exits;
+        const auto found = std::ranges::find_if(report.rows, [&](const MethodsRow& one) {
+            return one.workload == row.workload && one.kernel.method.name == "shevtsov" &&
+                   one.kernel.width == 1;
+        });
+        const MethodsRow* other =
+            found == report.rows.end() ? nullptr : same_row(report, *found, "shevtsov_distance_first");
+        table.add_row({row.workload, grouped(e.tests), percent(e.by_both + e.by_distance_only, e.tests),
+                       percent(e.by_both + e.by_aperture_only, e.tests), percent(e.by_both, e.tests),
+                       percent(e.hits, e.tests),
+                       other == nullptr ? "-" : ratio(found->tests_per_second / other->tests_per_second)});
+    }
+    return "\nWhat the two halves of Shevtsov's test reject, and the speed of the order that the paper "
+           "argues for\n" +
+           table.text();
+}
+
 }  // namespace
 
 const MethodsRow* same_row(const MethodsReport& report, const MethodsRow& row, std::string_view method) {
@@ -200,7 +264,7 @@ std::optional<double> ratio_to_wald(const MethodsReport& report, const MethodsRo
 
 std::string methods_text(const MethodsReport& report) {
     return facts(report) + published_table(report) + precompute_table(report) + all_forms_table(report) +
-           scaling_table(report) + leaf_table(report);
+           operations_table(report) + scaling_table(report) + leaf_table(report) + early_exits_table(report);
 }
 
 }  // namespace rtu::study

@@ -104,4 +104,9 @@ PairingRun PairingBench::run(model::PairingMethod method, const PairingSetting& 
     return pairing_run(pairing, bvh, workloads, setting.config);
 }
 
+model::CompressionCost PairingBench::compression_cost(const RotationDegrees& rotation) {
+    turn(rotation);
+    return model::compression_cost(mesh(), options_.edge_identity);
+}
+
 }  // namespace rtu::study

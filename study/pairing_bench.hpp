@@ -31,6 +31,9 @@ class PairingBench {
     /// The counts of `rtusim run` with the same pairing, machine, rays and camera.
     [[nodiscard]] PairingRun run(model::PairingMethod method, const PairingSetting& setting);
 
+    /// What edge_bbsa_compressed costs on the scene turned so.
+    [[nodiscard]] model::CompressionCost compression_cost(const RotationDegrees& rotation);
+
     [[nodiscard]] const LoadedScene& scene() const { return scene_; }
     /// Before any rotation.
     [[nodiscard]] const ChosenCamera& camera() const { return camera_; }

@@ -38,6 +38,17 @@ Cells run_cells(const PairingRun& run) {
     return cells;
 }
 
+// Empty for other methods.
+Cells compression_cells(const std::optional<model::CompressionCost>& cost) {
+    if (!cost) return Cells(6);
+    Cells cells;
+    for (const std::uint64_t count : {cost->exact_candidates, cost->candidates, cost->wrong_candidates,
+                                      cost->lost_candidates, cost->exact_pairs, cost->pairs}) {
+        cells.push_back(fmt::format("{}", count));
+    }
+    return cells;
+}
+
 void append(Cells& cells, const Cells& more) { cells.insert(cells.end(), more.begin(), more.end()); }
 
 Cells header() {
@@ -47,6 +58,10 @@ Cells header() {
     }
     append(cells, run_names("old"));
     append(cells, run_names("new"));
+    for (const char* name :
+         {"exact_candidates", "candidates", "wrong_candidates", "lost_candidates", "exact_pairs", "pairs"}) {
+        cells.push_back(fmt::format("compression_{}", name));
+    }
     return cells;
 }
 
@@ -58,6 +73,7 @@ Cells cells_of(Cells where, const PairingRow& row) {
     }
     append(where, run_cells(row.before));
     append(where, run_cells(row.after));
+    append(where, compression_cells(row.compression));
     return where;
 }
 

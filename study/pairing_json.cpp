@@ -55,12 +55,19 @@ Json published(const PairingRow& row) {
         {"source", "A. Aman, S. Fenney, Fast Triangle Pairing for Ray Tracing, Imagination Technologies"}};
 }
 
+Json json(const model::CompressionCost& cost) {
+    return {{"exact_candidates", cost.exact_candidates}, {"candidates", cost.candidates},
+            {"wrong_candidates", cost.wrong_candidates}, {"lost_candidates", cost.lost_candidates},
+            {"exact_pairs", cost.exact_pairs},           {"pairs", cost.pairs}};
+}
+
 Json json(const PairingRow& row) {
     Json object{{"scene", row.scene}, {"method", row.method}, {"baseline", row.baseline}};
     for (const PairingColumn& column : pairing_columns()) object[column.key] = json(column.value(row));
     object["old"] = json(row.before);
     object["new"] = json(row.after);
     object["published"] = published(row);
+    object["compression"] = row.compression ? json(*row.compression) : Json(nullptr);
     return object;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/pairing.hpp"
 #include "model/pairing_prescan.hpp"
 #include "study/pairing_options.hpp"
 #include "study/pairing_paper.hpp"
@@ -24,6 +25,7 @@ struct PairingRow {
     PairingRun after;                         ///< with the method
     const PublishedRow* published = nullptr;  ///< of this scene, method and baseline in [AF], or none
     MeshIdentity mesh;                        ///< only with `published`
+    std::optional<model::CompressionCost> compression;  ///< of edge_bbsa_compressed, in the comparison itself
 };
 
 /// (after - before) / before in percent; 0 for two zeros, nothing for a change from zero.

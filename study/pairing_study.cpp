@@ -31,6 +31,8 @@ void add_rows(PairingBench& bench, const PairingOptions& options, std::vector<Pa
     const PairingSetting setting{options.machine.config, options.rotation, options.workloads};
     for (const model::PairingMethod& method : options.methods) {
         rows.push_back(compare(bench, options, method, setting));
+        if (method.kind != model::PairingKind::EdgeBbsaCompressed) continue;
+        rows.back().compression = bench.compression_cost(setting.rotation);
     }
 }
 

@@ -75,6 +75,28 @@ PairingTable bound_table(const PairingReport& report) {
     return table;
 }
 
+// No rows when nothing compressed is compared.
+PairingTable compression_table(const PairingReport& report) {
+    PairingTable table;
+    table.title = "What 16-byte half-edges cost (edge_bbsa_compressed beside edge_bbsa)";
+    table.columns = {{"Scene", left},       {"Candidates\nexact"}, {"Candidates\ncompressed"},
+                     {"Wrong\ncandidates"}, {"Lost\ncandidates"},  {"Pairs\nexact"},
+                     {"Pairs\ncompressed"}, {"Pairs\nchange"}};
+    for (const PairingRow& row : report.rows) {
+        if (!row.compression) continue;
+        const model::CompressionCost& cost = *row.compression;
+        table.rows.push_back(
+            {row.scene, grouped(cost.exact_candidates), grouped(cost.candidates),
+             grouped(cost.wrong_candidates), grouped(cost.lost_candidates), grouped(cost.exact_pairs),
+             grouped(cost.pairs),
+             fmt::format("{:+}", std::int64_t(cost.pairs) - std::int64_t(cost.exact_pairs))});
+    }
+    table.note =
+        "Candidates: neighbours of the sorted table with equal keys, of two triangles. Wrong: they have no\n"
+        "edge in common and are passed over. Lost: no neighbours in the compressed table.";
+    return table;
+}
+
 double published_value(const PublishedRow& row, std::string_view key) {
     if (key == "old_paired_percent") return row.old_paired_percent;
     if (key == "new_paired_percent") return row.new_paired_percent;
@@ -118,6 +140,8 @@ std::vector<PairingTable> comparison_tables(const PairingReport& report) {
     tables[1].note =
         "L1 misses: line reads that went on to the L2, all L1s together; L2 misses: those that went on to\n"
         "the DRAM. BVH build is host time, the lesser of two builds, and noisy.";
+    PairingTable compression = compression_table(report);
+    if (!compression.rows.empty()) tables.push_back(std::move(compression));
     PairingTable published = published_table(report);
     if (!published.rows.empty()) tables.push_back(std::move(published));
     return tables;

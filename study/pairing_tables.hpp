@@ -16,8 +16,9 @@ struct PairingTable {
     std::vector<std::vector<std::string>> rows;  ///< an empty row is a rule
 };
 
-/// The tables of the comparison: the paper's, memory, what bounds the machine, and, when there is anything
-/// published about these scenes, the published values beside ours.
+/// The tables of the comparison: the paper's, memory, what bounds the machine; where edge_bbsa_compressed is
+/// compared, what its compression costs; and, when there is anything published about these scenes, the
+/// published values beside ours.
 [[nodiscard]] std::vector<PairingTable> comparison_tables(const PairingReport& report);
 
 /// A study's table.

@@ -54,6 +54,14 @@ template <std::size_t W>
     return hn::AllFalse(LanesTag<W>(), mask.bits);
 }
 template <std::size_t W>
+[[nodiscard]] HWY_INLINE bool is_all(LaneMask<W> mask) {
+    return hn::AllTrue(LanesTag<W>(), mask.bits);
+}
+template <std::size_t W>
+[[nodiscard]] HWY_INLINE LaneMask<W> inverted(LaneMask<W> mask) {
+    return {hn::Not(mask.bits)};
+}
+template <std::size_t W>
 [[nodiscard]] HWY_INLINE LaneMask<W> both(LaneMask<W> a, LaneMask<W> b) {
     return {hn::And(a.bits, b.bits)};
 }
@@ -89,23 +97,48 @@ template <std::size_t W>
     const auto differs = hn::BitCast(signed_tag, hn::Xor(a.v, b.v));
     return {hn::Not(hn::RebindMask(d, hn::Lt(differs, hn::Zero(signed_tag))))};
 }
-
-/// Lane by lane, slowly: edge_function_in_double and owned_edge_function.
 template <std::size_t W>
-[[nodiscard]] HWY_NOINLINE Lanes<W> edge_function_in_double(Lanes<W> x1, Lanes<W> y1, Lanes<W> x2,
-                                                            Lanes<W> y2) {
-    HWY_ALIGN float x[2][W], y[2][W], result[W];
-    x1.store(x[0]), y1.store(y[0]), x2.store(x[1]), y2.store(y[1]);
-    for (std::size_t i = 0; i < W; ++i)
-        result[i] = edge_function_in_double(x[0][i], y[0][i], x[1][i], y[1][i]);
-    return Lanes<W>::load(result);
+[[nodiscard]] HWY_INLINE LaneMask<W> has_same_sign(Lanes<W> a, Lanes<W> b, Lanes<W> c) {
+    const Lanes<W> zero(0.0F);
+    return has_same_sign(Lanes<W>(hn::Or(hn::Xor(a.v, b.v), hn::Xor(b.v, c.v))), zero);
+}
+
+/// x1 y2 - y1 x2 in binary64 and rounded to binary32; `zero` where it is exactly zero.
+template <std::size_t H, class V = hn::Vec<LanesTag<H>>>
+[[nodiscard]] HWY_INLINE V rounded_edge_function(V x1, V y1, V x2, V y2, V zero) {
+    const hn::FixedTag<double, H> d;
+    const auto value = hn::Sub(hn::Mul(hn::PromoteTo(d, x1), hn::PromoteTo(d, y2)),
+                               hn::Mul(hn::PromoteTo(d, y1), hn::PromoteTo(d, x2)));
+    const auto is_zero = hn::Eq(value, hn::Zero(d));
+    return hn::DemoteTo(LanesTag<H>(), hn::IfThenElse(is_zero, hn::PromoteTo(d, zero), value));
 }
 template <std::size_t W>
-[[nodiscard]] HWY_NOINLINE Lanes<W> owned_edge_function(Lanes<W> x1, Lanes<W> y1, Lanes<W> x2, Lanes<W> y2) {
-    HWY_ALIGN float x[2][W], y[2][W], result[W];
-    x1.store(x[0]), y1.store(y[0]), x2.store(x[1]), y2.store(y[1]);
-    for (std::size_t i = 0; i < W; ++i) result[i] = owned_edge_function(x[0][i], y[0][i], x[1][i], y[1][i]);
-    return Lanes<W>::load(result);
+[[nodiscard]] HWY_INLINE Lanes<W> rounded_edge_function(Lanes<W> x1, Lanes<W> y1, Lanes<W> x2, Lanes<W> y2,
+                                                        Lanes<W> zero) {
+#if HWY_TARGET == HWY_SCALAR
+    return Lanes<W>(rounded_edge_function<W>(x1.v, y1.v, x2.v, y2.v, zero.v));
+#else
+    const LanesTag<W / 2> half;
+    const auto lower = rounded_edge_function<W / 2>(hn::LowerHalf(half, x1.v), hn::LowerHalf(half, y1.v),
+                                                    hn::LowerHalf(half, x2.v), hn::LowerHalf(half, y2.v),
+                                                    hn::LowerHalf(half, zero.v));
+    const auto upper = rounded_edge_function<W / 2>(hn::UpperHalf(half, x1.v), hn::UpperHalf(half, y1.v),
+                                                    hn::UpperHalf(half, x2.v), hn::UpperHalf(half, y2.v),
+                                                    hn::UpperHalf(half, zero.v));
+    return Lanes<W>(hn::Combine(LanesTag<W>(), upper, lower));
+#endif
+}
+
+// As numeric-inl.hpp has them for scalars.
+template <std::size_t W>
+[[nodiscard]] HWY_INLINE Lanes<W> edge_function_in_double(Lanes<W> x1, Lanes<W> y1, Lanes<W> x2,
+                                                          Lanes<W> y2) {
+    return rounded_edge_function(x1, y1, x2, y2, Lanes<W>(0.0F));
+}
+template <std::size_t W>
+[[nodiscard]] HWY_INLINE Lanes<W> owned_edge_function(Lanes<W> x1, Lanes<W> y1, Lanes<W> x2, Lanes<W> y2) {
+    const Lanes<W> owner = select(y1 == y2, x2 - x1, y1 - y2);
+    return rounded_edge_function(x1, y1, x2, y2, flip_sign(Lanes<W>(0.0F), owner));
 }
 
 /// An axis in each lane.

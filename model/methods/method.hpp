@@ -49,7 +49,8 @@ struct Method {
 };
 
 /// All methods, in the order of their publication, ours last. Fast leaves out `exact`, which is the machine's
-/// own code, and is empty on a processor that cannot fuse.
+/// own code, and `havel_herout_sse4`, whose roundings are the instructions' own, and is empty on a processor
+/// that cannot fuse.
 [[nodiscard]] std::span<const Method> all_methods(Contraction contraction = Contraction::Off);
 
 /// The method of that name; null when there is none.

@@ -33,6 +33,8 @@
 #include "model/methods/wald.hpp"
 #include "model/methods/woop.hpp"
 #include "model/methods/woop_double.hpp"
+#include "model/methods/settle-inl.hpp"
+#include "model/methods/woop_exact.hpp"
 #include "model/methods/woop_top_left.hpp"
 // clang-format on
 
@@ -46,7 +48,7 @@ struct MethodList {};
 using AllMethods = MethodList<SnyderBarr, Badouel, MollerTrumbore, PluckerPrecomputed, Plucker,
                               PluckerTwoCross, MollerTrumboreDeferred, SeguraFeito, Wald, KenslerShirley,
                               Shevtsov, ShevtsovDistanceFirst, HavelHerout, Woop, WoopDouble, EmbreeMoller,
-                              EmbreePlucker, BaldwinWeber, EdgePlane, WoopTopLeft>;
+                              EmbreePlucker, BaldwinWeber, EdgePlane, WoopTopLeft, WoopExact>;
 
 }  // namespace rtu::model::methods::RTU_TARGET
 RTU_AFTER_TARGET();

@@ -19,6 +19,8 @@ template <class Real>
 using MaskOf = decltype(Real(0.0F) < Real(0.0F));
 
 [[nodiscard]] HWY_INLINE bool is_none(bool mask) { return !mask; }
+[[nodiscard]] HWY_INLINE bool is_all(bool mask) { return mask; }
+[[nodiscard]] HWY_INLINE bool inverted(bool mask) { return !mask; }
 [[nodiscard]] HWY_INLINE bool both(bool a, bool b) { return a && b; }
 [[nodiscard]] HWY_INLINE bool either(bool a, bool b) { return a || b; }
 [[nodiscard]] HWY_INLINE float select(bool mask, float yes, float no) { return mask ? yes : no; }
@@ -32,6 +34,11 @@ using MaskOf = decltype(Real(0.0F) < Real(0.0F));
 }
 /// Whether the sign bits are equal.
 [[nodiscard]] HWY_INLINE bool has_same_sign(float a, float b) { return std::signbit(a) == std::signbit(b); }
+[[nodiscard]] HWY_INLINE bool has_same_sign(float a, float b, float c) {
+    const auto bits_a = std::bit_cast<std::uint32_t>(a), bits_b = std::bit_cast<std::uint32_t>(b),
+               bits_c = std::bit_cast<std::uint32_t>(c);
+    return (((bits_a ^ bits_b) | (bits_b ^ bits_c)) & 0x8000'0000U) == 0;  // one branch, not two
+}
 
 template <class Real>
 struct Vector {

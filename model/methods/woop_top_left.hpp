@@ -27,7 +27,7 @@ struct WoopTopLeft : Woop {
                                      .stored_bytes = 36,
                                      .axis_owner = AxisOwner::Ray};
 
-    /// An edge function: plus - minus. Of the reversed edge the two are swapped.
+    /// An edge function, plus - minus, from a point to another. Of the reversed edge the two are swapped.
     template <class Real>
     struct Edge {
         Real plus, minus;
@@ -37,50 +37,64 @@ struct WoopTopLeft : Woop {
     template <class Real>
     [[nodiscard]] static Stored<Real> store(const Vector<Real>& a, const Vector<Real>& b,
                                             const Vector<Real>& c, Axis) {
-        return {a, b, can_be_hit(a, b, c) ? c : nowhere<Real>()};
+        if (!can_be_hit(a, b, c)) return {nowhere<Real>(), nowhere<Real>(), nowhere<Real>()};
+        return {a, b, c};
     }
     template <class Real>
     [[nodiscard]] static PairStored<Real> store_pair(const Vector<Real>& a, const Vector<Real>& b,
                                                      const Vector<Real>& c, const Vector<Real>& d, Axis) {
-        return {a, can_be_hit(a, b, c) ? b : nowhere<Real>(), c, can_be_hit(a, c, d) ? d : nowhere<Real>()};
+        PairStored<Real> stored{a, b, c, d};
+        if (!can_be_hit(a, b, c)) stored.b = nowhere<Real>();
+        if (!can_be_hit(a, c, d)) stored.d = nowhere<Real>();
+        return stored;
     }
 
     template <class Real>
     [[nodiscard]] static HWY_INLINE Edge<Real> edge(const Sheared<Real>& p, const Sheared<Real>& q) {
         return {p.x * q.y, p.y * q.x};
     }
-    /// The edge function from p to q; of a tie with the sign of who owns it.
+    /// `value`, the edge function; of a tie with the sign of who owns it.
     template <class Real>
-    [[nodiscard]] static HWY_INLINE Real settle(const Edge<Real>& edge, const Sheared<Real>& p,
-                                                const Sheared<Real>& q) {
-        return select(edge.plus == edge.minus, owned_edge_function(p.x, p.y, q.x, q.y),
-                      edge.plus - edge.minus);
+    [[nodiscard]] static HWY_INLINE Real settled(const Edge<Real>& edge, const Real& value,
+                                                 const Sheared<Real>& from, const Sheared<Real>& to) {
+        return select(edge.plus == edge.minus, owned_edge_function(from.x, from.y, to.x, to.y), value);
     }
 
+    /// From edge functions whose signs are settled.
+    template <class Real>
+    [[nodiscard]] static HWY_INLINE Candidate<Real> at_depth(const RayData<Real>& ray,
+                                                             const Interval<Real>& interval,
+                                                             const MaskOf<Real>& is_in, const Real& by_p,
+                                                             const Real& by_q, const Real& by_r,
+                                                             const Sheared<Real>& p, const Sheared<Real>& q,
+                                                             const Sheared<Real>& r) {
+        const Real det = by_p + by_q + by_r;
+        const Real t = (by_p * p.z + by_q * q.z + by_r * r.z) * ray.scale_z;
+        const Real size = magnitude(det), distance = flip_sign(t, det);
+        const Interval<Real> finite{interval.t_min, smaller(Real(0x1p127F), interval.t_max)};
+        const MaskOf<Real> is_hit = both(is_within(finite, distance, size), size >= Real(0x1p-126F));
+        return {both(is_in, is_hit), t, by_q, by_r, det};
+    }
+
+    /// Each edge named by the corner opposite to it.
     template <class Real>
     [[nodiscard]] static HWY_INLINE Candidate<Real> decide(const RayData<Real>& ray,
                                                            const Interval<Real>& interval,
-                                                           const Edge<Real>& qr, const Edge<Real>& rp,
-                                                           const Edge<Real>& pq, const Sheared<Real>& p,
+                                                           const Edge<Real>& of_p, const Edge<Real>& of_q,
+                                                           const Edge<Real>& of_r, const Sheared<Real>& p,
                                                            const Sheared<Real>& q, const Sheared<Real>& r) {
-        MaskOf<Real> is_in =
-            either(both(both(qr.plus >= qr.minus, rp.plus >= rp.minus), pq.plus >= pq.minus),
-                   both(both(qr.plus <= qr.minus, rp.plus <= rp.minus), pq.plus <= pq.minus));
-        if (is_none(is_in)) return {is_in};
-        Real of_p = qr.plus - qr.minus, of_q = rp.plus - rp.minus, of_r = pq.plus - pq.minus;
         const MaskOf<Real> is_tie =
-            either(either(qr.plus == qr.minus, rp.plus == rp.minus), pq.plus == pq.minus);
-        if (!is_none(both(is_in, is_tie))) {
-            of_p = settle(qr, q, r);
-            of_q = settle(rp, r, p);
-            of_r = settle(pq, p, q);
-            is_in = both(is_in, both(has_same_sign(of_p, of_q), has_same_sign(of_q, of_r)));
+            either(either(of_p.plus == of_p.minus, of_q.plus == of_q.minus), of_r.plus == of_r.minus);
+        Real by_p = of_p.plus - of_p.minus, by_q = of_q.plus - of_q.minus, by_r = of_r.plus - of_r.minus;
+        if (HWY_UNLIKELY(!is_none(is_tie))) {
+            by_p = settled(of_p, by_p, q, r);
+            by_q = settled(of_q, by_q, r, p);
+            by_r = settled(of_r, by_r, p, q);
         }
-        const Real det = of_p + of_q + of_r;
-        const Real t = (of_p * p.z + of_q * q.z + of_r * r.z) * ray.scale_z;
-        const Real size = magnitude(det), distance = flip_sign(t, det);
-        const MaskOf<Real> is_finite = both(size >= Real(0x1p-126F), distance < Real(0x1p127F) * size);
-        return {both(both(is_in, is_finite), is_within(interval, distance, size)), t, of_q, of_r, det};
+        const MaskOf<Real> is_in = has_same_sign(by_p, by_q, by_r);
+        if constexpr (std::is_same_v<MaskOf<Real>, bool>)
+            if (!is_in) return {is_in};
+        return at_depth(ray, interval, is_in, by_p, by_q, by_r, p, q, r);
     }
 
     template <class Real, class AnyAxis>

@@ -126,10 +126,12 @@ TEST_F(PairingCommand, ATurnedSceneIsTheSamePicture) {
 
 TEST_F(PairingCommand, WritesChartsAndAPage) {
     if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot here: install gnuplot-nox";
-    const ProcessResult result =
-        pair_ball({"--study", "window", "--html", "page.html", "--charts", "new/charts"});
+    const ProcessResult result = pair_ball({"--study", "window", "--html", "page.html", "--charts",
+                                            "new/charts", "--methods", "edge_bbsa,edge_bbsa_compressed"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(content("page.html"), StartsWith("<!DOCTYPE html>"));
+    EXPECT_THAT(content("page.html"), HasSubstr("What 16-byte half-edges cost"));
+    EXPECT_THAT(result.out, HasSubstr("What 16-byte half-edges cost"));
     EXPECT_THAT(content("new/charts/window_mrps.svg"), HasSubstr("<svg"));
     EXPECT_THAT(content("new/charts/window_paired.png"), StartsWith("\x89PNG"));
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -96,6 +97,32 @@ TEST(MethodKernels, GiveWhatTheSingleCallGivesInEveryFormAndWidth) {
     }
 }
 
+// Small whole numbers: many edges pass exactly through a ray.
+TEST(MethodKernels, SettleTiesAsTheSingleCallDoes) {
+    std::vector<Corners> triangles;
+    std::vector<Ray> rays;
+    const auto whole = [](RandomStream& random) {
+        const Vec3 p = random_point(random) * 5.0F;
+        return Vec3{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
+    };
+    for (std::uint32_t i = 0; i < 50; ++i) {
+        RandomStream random(4, 1, i);
+        const Vec3 a = whole(random), b = whole(random), c = whole(random);
+        triangles.push_back({a, b, c});
+        triangles.push_back({a, c, whole(random)});
+        rays.push_back({whole(random) - Vec3{0, 0, 9}, 0, {0, 0, 1}, 1e30F});
+        rays.push_back({whole(random) + Vec3{9, 9, 0}, 0, {-1, -1, 0}, 1e30F});
+        rays.push_back({whole(random), 0, {-0.0F, 1, 0}, 1e30F});
+    }
+    for (const Kernel& kernel : all_kernels()) {
+        if (kernel.method.name != "woop_top_left" && kernel.method.name != "woop_double") continue;
+        const auto expected = one_by_one(*find_method(kernel.method.name), kernel.form, triangles, rays);
+        const auto results = traced(kernel, triangles, rays, false);
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            EXPECT_TRUE(results[i] == expected[i]) << text(kernel) << ", ray " << i;
+    }
+}
+
 TEST(MethodKernels, FindTheSameNearestHitWithAShrinkingInterval) {
     const auto triangles = random_triangles(37);
     const auto rays = random_rays(101);
@@ -127,7 +154,7 @@ TEST(MethodKernels, TakeOneTriangleAndOneRay) {
 
 TEST(MethodKernels, ExistInEveryFormForEveryMethod) {
     for (const Method& method : all_methods()) {
-        if (method.info.name == "exact") continue;
+        if (method.info.name == "exact" || method.info.name == "havel_herout_sse4") continue;
         for (const Form form : {Form::Single, Form::Rays, Form::Triangles})
             EXPECT_TRUE(std::any_of(all_kernels().begin(), all_kernels().end(), [&](const Kernel& kernel) {
                 return kernel.method.name == method.info.name && kernel.form == form;

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "model/methods/early_exits.hpp"
 #include "model/methods/method.hpp"
 #include "model/random.hpp"
 
@@ -101,6 +104,34 @@ TEST(Methods, HaveNamesOfTheirOwnAndAreFoundByThem) {
         EXPECT_EQ(find_method(method.info.name), &method);
     }
     EXPECT_EQ(find_method("mollertrumbore"), nullptr);
+}
+
+TEST(HavelHeroutSse4, GivesWhatTheScalarFormGivesButForRounding) {
+    const Method *sse4 = find_method("havel_herout_sse4"), *scalar = find_method("havel_herout");
+    if (sse4 == nullptr) GTEST_SKIP() << "the processor has no SSE4.1";
+    int hits = 0, differing = 0;
+    for (std::uint32_t i = 0; i < 4000; ++i) {
+        const Case c = random_case(i);
+        const auto got = sse4->test(c.ray, c.triangle), expected = scalar->test(c.ray, c.triangle);
+        differing += int(got.has_value() != expected.has_value());
+        if (!got || !expected || !is_clear(c)) continue;
+        ++hits;
+        EXPECT_NEAR(got->t, expected->t, 1e-4F * expected->t);
+        EXPECT_NEAR(got->u, expected->u, 1e-4F);
+        EXPECT_NEAR(got->v, expected->v, 1e-4F);
+    }
+    EXPECT_GT(hits, 300);
+    EXPECT_LT(differing, 5);
+}
+
+TEST(EarlyExits, AreCountedForEitherHalfOfTheTest) {
+    const Corners triangle{Vec3{-1, -1, 2}, Vec3{3, -1, 2}, Vec3{-1, 3, 2}};
+    const Vec3 in{0, 0, 1}, out{5, 5, 1};
+    const std::vector<Ray> rays{{{}, 0, in, infinity},  {{}, 0, in, 1},  {{}, 3, in, 9},
+                                {{}, 0, out, infinity}, {{}, 0, out, 1}, {{}, 0, -in, infinity}};
+    const std::vector<Corners> triangles(rays.size(), triangle);
+    EXPECT_EQ(count_early_exits(rays, triangles), (EarlyExits{6, 1, 3, 1, 1}));
+    EXPECT_THROW((void)count_early_exits(rays, {}), std::logic_error);
 }
 
 }  // namespace

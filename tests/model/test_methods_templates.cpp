@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 #include <type_traits>
@@ -98,7 +99,7 @@ TEST(MethodTemplates, GiveForAPairWhatItsTrianglesGive) {
             ++pairs;
         }
     });
-    EXPECT_EQ(pairs, 6);
+    EXPECT_EQ(pairs, 7);
 }
 
 // What reversing the second triangle costs: nothing but rounding.
@@ -130,6 +131,30 @@ void expect_the_second_to_be_near_its_triangle_alone() {
 TEST(MethodTemplates, DifferByRoundingWhereThePairReversesATriangle) {
     expect_the_second_to_be_near_its_triangle_alone<MollerTrumboreDeferred>();
     expect_the_second_to_be_near_its_triangle_alone<PluckerTwoCross>();
+}
+
+// Whole numbers of 24 bits, whose products integers hold, in pairs so nearly on a line with the origin that
+// binary32 products often tie.
+TEST(MethodTemplates, DecideAnEdgeExactly) {
+    int ties = 0, zeros = 0;
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+        RandomStream random(15, 0, i);
+        const float x1 = std::floor(random.next() * 0x1p23F), y1 = std::floor(random.next() * 0x1p23F);
+        const float share = random.next() < 0.2F ? 1.0F : 1 + random.next();
+        const float x2 = std::floor(x1 * share), y2 = std::floor(y1 * share);
+        const auto exact = std::int64_t(x1) * std::int64_t(y2) - std::int64_t(y1) * std::int64_t(x2);
+        const float value = owned_edge_function(x1, y1, x2, y2);
+        const float reversed = owned_edge_function(x2, y2, x1, y1);
+        ASSERT_EQ(std::signbit(value), exact < 0 || (exact == 0 && std::signbit(value)));
+        ASSERT_EQ(value, float(exact));
+        if (x1 != x2 || y1 != y2) {
+            ASSERT_NE(std::signbit(value), std::signbit(reversed));
+        }
+        ties += int(x1 * y2 == y1 * x2);
+        zeros += int(exact == 0);
+    }
+    EXPECT_GT(ties - zeros, 300);
+    EXPECT_GT(zeros, 300);
 }
 
 // Its normal has one component, so that Shevtsov's test takes the shorter path; the rest of the plane's terms

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "model/edge_bbsa.hpp"
+#include "model/edge_ring.hpp"
 #include "model/error.hpp"
 #include "model/pairing.hpp"
 #include "model/weld.hpp"
@@ -113,6 +114,37 @@ TEST(Pairing, ManyTrianglesOnOneEdgeAreNotQuadratic) {
     for (const PairingMethod method : {window(max_pairing_window), edge_bbsa}) {
         EXPECT_EQ(pair_triangles(mesh, method, EdgeIdentity::Index).pair_count, count / 2);
     }
+}
+
+TEST(Pairing, AStripWhoseEdgesGrowAllAlongIsNotQuadratic) {
+    // Every triangle but the last prefers the next one, so the strip is decided from its end.
+    constexpr std::uint32_t count = 99'999;
+    TriangleMesh mesh;
+    for (std::uint32_t v = 0; v < count + 2; ++v) {
+        mesh.positions.push_back({(v % 2 == 0 ? 1.0F : -1.0F) * float(v), float(v), 0});
+    }
+    for (std::uint32_t t = 0; t < count; ++t) mesh.triangles.push_back({t, t + 1, t + 2});
+    const Partners partners = partners_of(pair_triangles(mesh, edge_bbsa, EdgeIdentity::Index), count);
+    EXPECT_EQ(partners[0], std::nullopt);
+    for (std::uint32_t t = 1; t < count; ++t) ASSERT_EQ(partners[t], t % 2 == 0 ? t - 1 : t + 1);
+}
+
+TEST(EdgeRings, GoRoundEveryEdgeInFileOrder) {
+    // Edge 0-1 has four half-edges, 1-2 two, and one triangle has 0-1 twice.
+    const TriangleMesh mesh{"", std::vector<Vec3>(5), {{0, 1, 2}, {2, 1, 3}, {1, 0, 4}, {0, 1, 0}}};
+    const std::vector<std::uint32_t> ids{0, 1, 2, 3, 4};
+    ScratchMemory memory(1 << 12);
+    const EdgeRings rings({mesh.triangles, mesh.positions, ids}, memory);
+    const std::vector<std::uint32_t> next{6, 3, 2, 1, 4, 5, 9, 7, 8, 10, 0, 11};
+    for (std::uint32_t h = 0; h < next.size(); ++h) {
+        EXPECT_EQ(rings.next({h}).index, next[h]) << h;
+        EXPECT_EQ(rings.is_crowded({h}), h == 0 || h == 6 || h == 9 || h == 10) << h;
+    }
+    EXPECT_EQ(rings.previous({0}), std::nullopt);
+    EXPECT_EQ(rings.previous({6}), HalfEdge{0});
+    EXPECT_EQ(rings.previous({9}), HalfEdge{6});
+    EXPECT_EQ(rings.previous({10}), HalfEdge{9});
+    EXPECT_EQ(rings.previous({1}), std::nullopt);
 }
 
 TEST(EdgeBoxArea, IsSymmetricAndNeverNan) {

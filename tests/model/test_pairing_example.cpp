@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "model/edge_bbsa.hpp"
+#include "model/pair_candidates.hpp"
 #include "model/weld.hpp"
 #include "tests/model/reference_pairing.hpp"
 
@@ -98,8 +99,11 @@ struct Status {
 TEST(WorkedExample, HasThePapersPairingStatus) {
     const TriangleMesh mesh = worked_example();
     ScratchMemory memory(1 << 16);
-    const auto candidates = edge_bbsa_candidates(
-        {mesh.triangles, mesh.positions, weld_positions(mesh.positions, memory)}, memory);
+    const auto area_of = [&mesh](std::uint32_t lower, std::uint32_t upper, HalfEdge, HalfEdge) {
+        return edge_box_area(mesh.positions[lower], mesh.positions[upper]);
+    };
+    const auto candidates = sorted_candidates(
+        {mesh.triangles, mesh.positions, weld_positions(mesh.positions, memory)}, memory, area_of);
     Matching matching(5, memory);
     std::vector<Status> statuses;
     for (const PairCandidate& c : candidates) {

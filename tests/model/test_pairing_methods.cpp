@@ -158,6 +158,19 @@ CompressionCost cost_of(const TriangleMesh& mesh) {
     return compression_cost({mesh.triangles, mesh.positions, weld_positions(mesh.positions, memory)}, memory);
 }
 
+TEST(Compressed, CountsThePairsOfBothWays) {
+    for (const TriangleMesh& mesh : {split_sheet(20, 1), chaotic_mesh(5), chaotic_mesh(17)}) {
+        for (const EdgeIdentity identity : identities) {
+            const CompressionCost cost = compression_cost(mesh, identity);
+            EXPECT_EQ(cost.exact_pairs, pair_triangles(mesh, edge_bbsa, identity).pair_count);
+            EXPECT_EQ(cost.pairs, pair_triangles(mesh, compressed, identity).pair_count);
+            EXPECT_GE(cost.candidates - cost.wrong_candidates, cost.pairs);
+        }
+    }
+    EXPECT_EQ(compression_cost(split_sheet(20, 1), EdgeIdentity::Position).exact_candidates,
+              3U * 20 * 20 - 2 * 20);  // its inner edges
+}
+
 TEST(Compressed, FindsOutTheDiagonalsOfARectangle) {
     // Both diagonals of the rectangle have one midpoint and one area: equal keys, different edges.
     const TriangleMesh mesh{

@@ -30,7 +30,7 @@ inline study::PairingRun example_pairing_run(const std::string& method, std::uin
 inline study::PairingRow example_pairing_row(const std::string& scene,
                                              const std::string& method = "edge_bbsa") {
     return {scene,   method, "window:2", example_pairing_run("window:2", 4), example_pairing_run(method, 2),
-            nullptr, {}};
+            nullptr, {},     {}};
 }
 
 /// Two scenes, two methods and one study of each kind of chart.

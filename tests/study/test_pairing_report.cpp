@@ -170,7 +170,7 @@ TEST(PairingJson, HasTheDocumentedKeys) {
     ASSERT_EQ(json["rows"].size(), 4U);
     std::vector<std::string> row_keys{"scene", "method", "baseline"};
     row_keys.insert(row_keys.end(), columns.begin(), columns.end());
-    row_keys.insert(row_keys.end(), {"old", "new", "published"});
+    row_keys.insert(row_keys.end(), {"old", "new", "published", "compression"});
     EXPECT_EQ(keys(json["rows"][0]), row_keys);
     EXPECT_THAT(keys(json["average"]), testing::IsSupersetOf(columns));
     EXPECT_EQ(json["average"]["method"], "edge_bbsa");
@@ -184,6 +184,41 @@ TEST(PairingJson, HasTheDocumentedKeys) {
     EXPECT_EQ(json["studies"][0]["name"], "window");
     EXPECT_EQ(json["studies"][0]["rows"][1]["x"], 4.0);
     EXPECT_TRUE(json["studies"][0]["rows"][4]["x"].is_null());
+}
+
+/// With the first row's compression, a different number in every place.
+PairingReport compressed_report() {
+    PairingReport report = example_pairing_report();
+    report.rows[0].compression = model::CompressionCost{7'600, 7'700, 120, 30, 3'200, 3'155};
+    return report;
+}
+
+TEST(PairingReport, SaysWhatCompressionCostsInEveryFormat) {
+    const Json rows = Json::parse(pairing_json(compressed_report()))["rows"];
+    EXPECT_EQ(rows[0]["compression"].dump(),
+              R"({"exact_candidates":7600,"candidates":7700,"wrong_candidates":120,"lost_candidates":30,)"
+              R"("exact_pairs":3200,"pairs":3155})");
+    EXPECT_TRUE(rows[1]["compression"].is_null());
+
+    std::istringstream csv(pairing_csv(compressed_report()));
+    std::string header, first, second;
+    std::getline(csv, header);
+    std::getline(csv, first);
+    std::getline(csv, second);
+    EXPECT_THAT(header, testing::EndsWith(",compression_exact_candidates,compression_candidates,"
+                                          "compression_wrong_candidates,compression_lost_candidates,"
+                                          "compression_exact_pairs,compression_pairs\r"));
+    EXPECT_THAT(first, testing::EndsWith(",7600,7700,120,30,3200,3155\r"));
+    EXPECT_THAT(second, testing::EndsWith(",,,,,,\r"));
+
+    EXPECT_THAT(pairing_text(compressed_report()),
+                testing::ContainsRegex("bunny +7,600 +7,700 +120 +30 +3,200 +3,155 +-45\n"));
+    EXPECT_THAT(pairing_text(example_pairing_report()), testing::Not(HasSubstr("compressed")));
+    PairingReport without_charts = compressed_report();
+    without_charts.studies.clear();
+    const auto tables = comparison_tables(without_charts);  // what the page shows
+    EXPECT_TRUE(std::ranges::any_of(
+        tables, [](const PairingTable& table) { return table.title.starts_with("What 16-byte"); }));
 }
 
 TEST(PairingJson, SaysNullForAChangeFromNothing) {
