@@ -48,10 +48,11 @@ void collect(const RTCFilterFunctionNArguments* arguments) {
 
 }  // namespace
 
-EmbreeOracle::EmbreeOracle(const model::TriangleMesh& mesh, EmbreeMode mode)
+EmbreeOracle::EmbreeOracle(const model::TriangleMesh& mesh, EmbreeMode mode, bool has_all_hits)
     : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
     const RTCSceneFlags robust = mode == EmbreeMode::Robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
-    rtcSetSceneFlags(scene_, RTCSceneFlags(robust | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    const RTCSceneFlags filter = has_all_hits ? RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(scene_, RTCSceneFlags(robust | filter));
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     copy_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions);
     copy_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);

@@ -18,7 +18,9 @@ enum class EmbreeMode : std::uint8_t { Default, Robust };
 /// An independent opinion on every hit: Embree on the same triangles. Safe to ask from several threads.
 class EmbreeOracle {
   public:
-    explicit EmbreeOracle(const model::TriangleMesh& mesh, EmbreeMode mode = EmbreeMode::Robust);
+    /// `has_all_hits`: whether all_hits() may be asked. The filter that it needs would cost trace() time.
+    explicit EmbreeOracle(const model::TriangleMesh& mesh, EmbreeMode mode = EmbreeMode::Robust,
+                          bool has_all_hits = false);
     ~EmbreeOracle();
     EmbreeOracle(const EmbreeOracle&) = delete;
     EmbreeOracle& operator=(const EmbreeOracle&) = delete;

@@ -13,7 +13,9 @@ model::Pairing pairing_of(const model::TriangleMesh& mesh) {
 }  // namespace
 
 Surface::Surface(model::TriangleMesh triangles)
-    : mesh(std::move(triangles)), embree(mesh, EmbreeMode::Default), embree_robust(mesh, EmbreeMode::Robust) {
+    : mesh(std::move(triangles)),
+      embree(mesh, EmbreeMode::Default, true),
+      embree_robust(mesh, EmbreeMode::Robust, true) {
     for (const auto& [a, b, c] : mesh.triangles) {
         corners.push_back({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
     }
