@@ -11,7 +11,7 @@
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
 #include "apps/progress.hpp"
-#include "apps/standard_output.hpp"
+#include "apps/report_output.hpp"
 #include "model/error.hpp"
 #include "study/methods_study.hpp"
 #include "study/methods_text.hpp"
@@ -31,7 +31,7 @@ struct Arguments {
     std::string workloads = "primary,diffuse";
     std::string camera;
     std::string seed = "1";
-    std::string json, csv;
+    ReportOutput output;
 };
 
 std::string footer() {
@@ -86,14 +86,7 @@ void add_options(CLI::App& methods, Arguments& arguments) {
     methods.add_option("--seed", arguments.seed, "of the random numbers")
         ->type_name("N")
         ->capture_default_str();
-    methods
-        .add_option("--json", arguments.json,
-                    "write the report as JSON; - is standard output, and no text then")
-        ->type_name("FILE|-")
-        ->check(is_not_empty());
-    methods.add_option("--csv", arguments.csv, "write the rows as CSV")
-        ->type_name("FILE")
-        ->check(is_not_empty());
+    add_report_options(methods, arguments.output);
 }
 
 study::MethodsOptions options_of(const Arguments& arguments) {
@@ -115,16 +108,6 @@ study::MethodsOptions options_of(const Arguments& arguments) {
     return options;
 }
 
-void check_outputs(const Arguments& arguments) {
-    std::vector<std::filesystem::path> taken(arguments.scenes.begin(), arguments.scenes.end());
-    if (!arguments.camera.empty()) taken.emplace_back(arguments.camera);
-    if (!arguments.json.empty() && arguments.json != "-") {
-        check_output(arguments.json, taken);
-        taken.emplace_back(arguments.json);
-    }
-    if (!arguments.csv.empty()) check_output(arguments.csv, taken);
-}
-
 study::MethodsReport measure(study::MethodsOptions& options) {
     Progress progress;
     options.progress = [&](std::string_view phase) { progress.show("methods", phase); };
@@ -134,14 +117,12 @@ study::MethodsReport measure(study::MethodsOptions& options) {
 int run_methods(const Arguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::MethodsOptions options = options_of(arguments);
-    check_outputs(arguments);
+    std::vector<std::filesystem::path> inputs(arguments.scenes.begin(), arguments.scenes.end());
+    if (!arguments.camera.empty()) inputs.emplace_back(arguments.camera);
+    check_report_output(arguments.output, inputs);
     const study::MethodsReport report = measure(options);
-    std::vector<study::OutputFile> files;
-    if (!arguments.json.empty() && arguments.json != "-")
-        files.push_back({arguments.json, study::methods_json(report)});
-    if (!arguments.csv.empty()) files.push_back({arguments.csv, study::methods_csv(report)});
-    study::write_files(files);
-    print_all(arguments.json == "-" ? study::methods_json(report) : study::methods_text(report));
+    write_report(arguments.output, study::methods_text(report), study::methods_json(report),
+                 study::methods_csv(report));
     return exit_done;
 }
 

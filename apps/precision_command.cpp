@@ -13,7 +13,7 @@
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
 #include "apps/progress.hpp"
-#include "apps/standard_output.hpp"
+#include "apps/report_output.hpp"
 #include "model/error.hpp"
 #include "model/methods/emulated.hpp"
 #include "study/output_file.hpp"
@@ -37,7 +37,7 @@ struct Arguments {
     std::string camera;
     std::string seed = "1";
     unsigned threads = 0;
-    std::string json, csv;
+    ReportOutput output;
 };
 
 std::string footer() {
@@ -89,14 +89,7 @@ void add_study_options(CLI::App& precision, Arguments& arguments) {
 }
 
 void add_output_options(CLI::App& precision, Arguments& arguments) {
-    precision
-        .add_option("--json", arguments.json,
-                    "write everything as JSON; - is standard output, and no text then")
-        ->type_name("FILE|-")
-        ->check(is_not_empty());
-    precision.add_option("--csv", arguments.csv, "write every method in every format as CSV")
-        ->type_name("FILE")
-        ->check(is_not_empty());
+    add_report_options(precision, arguments.output);
     precision
         .add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
         ->type_name("N")
@@ -132,16 +125,6 @@ study::PrecisionOptions options_of(const Arguments& arguments) {
     return options;
 }
 
-void check_outputs(const Arguments& arguments) {
-    std::vector<std::filesystem::path> taken(arguments.scenes.begin(), arguments.scenes.end());
-    if (!arguments.camera.empty()) taken.emplace_back(arguments.camera);
-    if (!arguments.json.empty() && arguments.json != "-") {
-        check_output(arguments.json, taken);
-        taken.emplace_back(arguments.json);
-    }
-    if (!arguments.csv.empty()) check_output(arguments.csv, taken);
-}
-
 study::PrecisionReport measure(study::PrecisionOptions& options) {
     Progress progress;
     options.progress = [&](std::string_view phase) { progress.show("precision", phase); };
@@ -151,19 +134,16 @@ study::PrecisionReport measure(study::PrecisionOptions& options) {
 int run_precision(const Arguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::PrecisionOptions options = options_of(arguments);
-    check_outputs(arguments);
+    std::vector<std::filesystem::path> inputs(arguments.scenes.begin(), arguments.scenes.end());
+    if (!arguments.camera.empty()) inputs.emplace_back(arguments.camera);
+    check_report_output(arguments.output, inputs);
     std::optional<tbb::global_control> limit;
     if (arguments.threads > 0) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
     }
     const study::PrecisionReport report = measure(options);
-    std::vector<study::OutputFile> files;
-    if (!arguments.json.empty() && arguments.json != "-") {
-        files.push_back({arguments.json, study::precision_json(report)});
-    }
-    if (!arguments.csv.empty()) files.push_back({arguments.csv, study::precision_csv(report)});
-    study::write_files(files);
-    print_all(arguments.json == "-" ? study::precision_json(report) : study::precision_text(report));
+    write_report(arguments.output, study::precision_text(report), study::precision_json(report),
+                 study::precision_csv(report));
     return exit_done;
 }
 

@@ -16,7 +16,7 @@
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
 #include "apps/progress.hpp"
-#include "apps/standard_output.hpp"
+#include "apps/report_output.hpp"
 #include "model/error.hpp"
 #include "study/output_file.hpp"
 #include "study/precision_ladder.hpp"
@@ -36,7 +36,7 @@ struct StabilityArguments {
     std::string seed = "1";
     std::string scene;
     unsigned threads = 0;  ///< 0: all cores
-    std::string json, csv;
+    ReportOutput output;
 };
 
 std::string footer() {
@@ -72,8 +72,6 @@ std::uint64_t parse_rays(const std::string& text) {
 
 struct StabilityPlan {
     study::StabilityOptions options;
-    bool is_json_to_stdout = false;
-    std::optional<std::filesystem::path> json, csv;
 };
 
 StabilityPlan make_plan(const StabilityArguments& arguments) {
@@ -88,15 +86,7 @@ StabilityPlan make_plan(const StabilityArguments& arguments) {
         inputs.emplace_back(arguments.scene);
     }
     study::check_stability_options(plan.options);
-    plan.is_json_to_stdout = arguments.json == "-";
-    if (!plan.is_json_to_stdout) plan.json = optional_path(arguments.json);
-    plan.csv = optional_path(arguments.csv);
-    for (const auto& output : {plan.json, plan.csv}) {
-        if (output) check_output(*output, inputs);
-    }
-    if (plan.json && plan.csv && is_same_file(*plan.json, *plan.csv)) {
-        throw Error("{}: is named by two options", plan.csv->string());
-    }
+    check_report_output(arguments.output, inputs);
     return plan;
 }
 
@@ -139,16 +129,9 @@ int run_stability_command(const StabilityArguments& arguments) {
     }
     const study::StabilityReport report = run(plan);
     const std::optional<study::PrecisionReport> precision = judge_precision(plan);
-    std::vector<study::OutputFile> files;
-    if (plan.json) files.push_back({*plan.json, json_of(report, precision)});
-    if (plan.csv) files.push_back({*plan.csv, study::stability_csv(report)});
-    study::write_files(files);
-    if (plan.is_json_to_stdout) {
-        print_all(json_of(report, precision));
-    } else {
-        print_all(study::stability_text(report) +
-                  (precision ? "\n" + study::precision_text(*precision) : std::string()));
-    }
+    const std::string answer = precision ? "\n" + study::precision_text(*precision) : std::string();
+    write_report(arguments.output, study::stability_text(report) + answer, json_of(report, precision),
+                 study::stability_csv(report));
     return exit_done;
 }
 
@@ -179,14 +162,7 @@ void add_options(CLI::App& stability, StabilityArguments& arguments) {
         ->type_name("N")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    stability
-        .add_option("--json", arguments.json,
-                    "write the rows as JSON; - is standard output, and no text then")
-        ->type_name("FILE|-")
-        ->check(is_not_empty());
-    stability.add_option("--csv", arguments.csv, "write the rows as CSV")
-        ->type_name("FILE")
-        ->check(is_not_empty());
+    add_report_options(stability, arguments.output);
 }
 
 }  // namespace

@@ -167,7 +167,8 @@ HeatMap failure_chart(const StabilityReport& stability) {
         for (const std::size_t index : cases) {
             std::uint64_t rays = 0, wrong = 0;
             for (const StabilityRow& row : stability.rows) {
-                if (row.method != method || row.case_index != index || !is_plain(row)) continue;
+                if (row.method != method || row.case_index != index || !is_plain(row) || row.is_comparison)
+                    continue;
                 rays += row.tally.rays;
                 wrong += failures(row.measured, row.tally);
             }

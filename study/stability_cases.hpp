@@ -15,6 +15,8 @@ struct StabilitySetting {
     std::string parameter;  ///< "1e-3", "fan_128", "t_min = t"
     std::string aim;        ///< what rays are aimed at: "vertex"
     std::function<std::unique_ptr<Experiment>()> make;
+    /// Shows what happens where the check does not apply; no failure of its case, and told by parameter only.
+    bool is_comparison = false;
 };
 
 /// A way in which methods fail, and the grid on which it is looked for. Numbers 1 to 21 are those of

@@ -36,7 +36,8 @@ StabilityCase reintersect() {
         for (const auto& [shape, draw] : shapes) {
             result.settings.push_back(
                 {fmt::format("{}, {}", start_name, shape), "random",
-                 [draw = draw, start = start] { return self_hit_experiment(draw, start); }});
+                 [draw = draw, start = start] { return self_hit_experiment(draw, start); },
+                 start != Start::MovedOffSurface});
         }
     }
     return result;
@@ -92,7 +93,8 @@ StabilityCase early_out() {
     for (const auto& [slab_name, slab] : slabs) {
         for (const auto& [shape, draw] : shapes) {
             result.settings.push_back({fmt::format("{}{}", slab_name, shape), "all",
-                                       [draw = draw, slab = slab] { return box_experiment(draw, slab); }});
+                                       [draw = draw, slab = slab] { return box_experiment(draw, slab); },
+                                       slab == Slab::Textbook});
         }
     }
     return result;

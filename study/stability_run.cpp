@@ -70,7 +70,8 @@ void add_rows(StabilityReport& report, const StabilitySetting& setting, const Ex
     for (std::size_t i = 0; i < subjects.size(); ++i) {
         if (tallies[i].rays == 0) continue;
         report.rows.push_back({subjects[i]->name(), subjects[i]->contraction(), report.cases.size() - 1,
-                               setting.parameter, setting.aim, experiment.measured(), std::move(tallies[i])});
+                               setting.parameter, setting.aim, experiment.measured(), std::move(tallies[i]),
+                               setting.is_comparison});
     }
 }
 

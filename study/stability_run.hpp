@@ -39,6 +39,7 @@ struct StabilityRow {
     std::string parameter, aim;
     Measured measured;
     Tally tally;
+    bool is_comparison = false;  ///< as its setting
 };
 
 /// All that was asked, in the order of the cases, their settings, and the subjects.

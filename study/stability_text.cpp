@@ -80,7 +80,7 @@ std::vector<Line> lines_of(const StabilityReport& report, std::size_t case_index
     std::vector<Line> lines;
     std::map<std::pair<std::string, std::string>, std::size_t> known;
     for (const StabilityRow& row : report.rows) {
-        if (row.case_index != case_index) continue;
+        if (row.case_index != case_index || (row.is_comparison && !is_by_parameter)) continue;
         const auto key = std::pair(row.method, row.contraction);
         if (is_by_parameter || !known.contains(key)) {
             known[key] = lines.size();
