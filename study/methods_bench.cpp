@@ -26,7 +26,8 @@ struct Times {
     double first_pass = store, shrinking = store, worst = store;
 };
 
-// Passes in a row over the same rays: what a branch predictor can learn by heart it has learned after ten.
+// Passes in a row over the same rays. A branch predictor learns their outcomes: with 15, vector code is up to
+// twice as fast as with 5.
 constexpr int most_passes = 15;
 constexpr double enough_seconds = 0.02;
 

@@ -35,8 +35,6 @@ const MethodsRow* row_of(const MethodsReport& report, std::string_view method, F
     return found == report.rows.end() ? nullptr : &*found;
 }
 
-std::optional<double> published_ratio(double mine, double wald) { return mine / wald; }
-
 std::string facts(const MethodsReport& report) {
     return fmt::format(
         "rtusim {}, instruction set {}, core at {} GHz, seed {}, least of {} repeats, one thread\n"
@@ -62,10 +60,10 @@ void add_published(TextTable& table, const MethodsReport& report, const Publishe
     table.add_row({std::string(row->kernel.method.title), is_packet ? "packets of 4" : "single rays",
                    millions(row->tests_per_second), fixed(*published, 0),
                    ratio(ours(row->tests_per_second, wald ? wald->tests_per_second : 1)),
-                   ratio(published_ratio(*published, wald_single)), millions(row->worst_tests_per_second),
+                   ratio(*published / wald_single), millions(row->worst_tests_per_second),
                    fixed(*published_worst, 0),
                    ratio(ours(*row->worst_tests_per_second, wald ? *wald->worst_tests_per_second : 1)),
-                   ratio(published_ratio(*published_worst, wald_worst))});
+                   ratio(*published_worst / wald_worst)});
 }
 
 std::string published_table(const MethodsReport& report) {
