@@ -220,7 +220,7 @@ TEST_F(SweepCommand, FailedPointsAreListedAndTheOthersDone) {
         "scenes = [\"ball.glb\"]\nworkloads = [\"primary\"]\nresolution = [4, 4]\n[set]\nl2.line_bytes = 32\n"
         "l1.line_bytes = 32\nl1.sector_bytes = 32\nl2.sector_bytes = 32\n"
         "[axes]\nl2.size_bytes = [65536, 268435456, 131072]\n"));
-    const ProcessResult limited = shell("ulimit -v 450000; $RTUSIM sweep s.toml --workers 1");
+    const ProcessResult limited = shell("ulimit -v 350000; $RTUSIM sweep s.toml --workers 1");
     EXPECT_EQ(limited.exit_code, 3) << limited.err;
     EXPECT_THAT(limited.out, AllOf(HasSubstr("2 done, 1 failed"), HasSubstr("bad_alloc")));
     EXPECT_THAT(limited.err, HasSubstr("1 points failed"));
@@ -269,7 +269,7 @@ class SweepKills : public SweepCommand {
         for (pid_t child = 0; stream >> child;) result.push_back(child);
         return result;
     }
-    void pause() { ::usleep(std::uniform_int_distribution<unsigned>(0, 150'000)(random_)); }
+    void pause() { ::usleep(std::uniform_int_distribution<unsigned>(0, 100'000)(random_)); }
     // True when the sweep came to its end before it was killed.
     bool start_and_kill(const std::string& database) {
         Process process = start({"sweep", "s.toml", "--output", database});
@@ -291,7 +291,7 @@ class SweepKills : public SweepCommand {
 };
 
 TEST_F(SweepKills, NoPointIsLostAndNoneIsDoneTwice) {
-    static_cast<void>(folder_.write("s.toml", sweep_text(300)));
+    static_cast<void>(folder_.write("s.toml", sweep_text(100)));
     static_cast<void>(sweep({"s.toml", "--output", "whole.db"}));
     const std::string expected = tables("whole.db");
     int finished = 0;
@@ -299,14 +299,14 @@ TEST_F(SweepKills, NoPointIsLostAndNoneIsDoneTwice) {
         const std::string database = fmt::format("s{}.db", finished);
         if (!start_and_kill(database)) continue;
         EXPECT_EQ(tables(database), expected);
-        EXPECT_EQ(number(database, "SELECT sum(completions) FROM host"), 600);
+        EXPECT_EQ(number(database, "SELECT sum(completions) FROM host"), 200);
         ++finished;
     }
     const std::string database = fmt::format("s{}.db", finished);
     static_cast<void>(sweep({"s.toml", "--output", database}));
     EXPECT_EQ(tables(database), expected);
     EXPECT_EQ(number(database, "SELECT max(completions) FROM host"), 1);
-    EXPECT_EQ(number(database, "SELECT count(*) FROM host"), 600);
+    EXPECT_EQ(number(database, "SELECT count(*) FROM host"), 200);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / (database + ".work")));
 }
 
