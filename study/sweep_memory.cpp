@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t mebibyte = 1 << 20;
 constexpr std::uint64_t process_bytes = 48 * mebibyte;  // program, libraries, kernels of earlier simulations
 constexpr std::uint64_t line_bytes = 64;                // tags and state of a cache line
-constexpr std::uint64_t slot_bytes = 8192;              // a ray, its stack, its place in every queue
+constexpr std::uint64_t slot_bytes = 1024;              // a ray under way, its place in every queue
 
 std::uint64_t lines(const sim::Config::Cache& cache) { return cache.size_bytes / cache.line_bytes; }
 

@@ -36,11 +36,14 @@ std::string quoted(const std::string& text) {
     return result + "'";
 }
 
-// Later rounds have what killed its task, and what stood behind it: as few together as there can be tasks.
+// Later rounds have what killed its task, and what stood behind it: fewer points together, in the last round
+// as few as there can be tasks.
 std::size_t points_of_task(const SlurmOptions& options, std::size_t points, int round) {
     const std::size_t fewest = (points + most_tasks - 1) / most_tasks;
-    if (round > 1) return fewest;
-    return options.points_per_task > 0 ? options.points_per_task : std::max(fewest, least_points);
+    if (round == most_rounds) return fewest;
+    const std::size_t first =
+        options.points_per_task > 0 ? options.points_per_task : std::max(fewest, least_points);
+    return round == 1 ? first : std::max(fewest, first / 8);
 }
 
 // A line for each task, with the points that it simulates.

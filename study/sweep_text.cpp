@@ -29,9 +29,14 @@ class DesignColumns {
         };
         has_preset_ = varies([](const SweepDesign& d) { return d.preset; });
         has_pairing_ = varies([](const SweepDesign& d) { return to_string(d.pairing); });
-        for (const sim::ConfigKey& key : sim::config_keys()) {
-            if (varies([&](const SweepDesign& d) { return sim::config_value(d.config, key); }))
-                keys_.push_back(&key);
+        // What differs because the presets do is told by their names.
+        for (const SweepAxis& axis : plan.file.axes) {
+            for (const sim::ConfigAssignment& assignment : axis.settings.front()) {
+                const sim::ConfigKey& key =
+                    sim::config_keys()[sim::config_key_index(assignment.key, assignment.place)];
+                if (varies([&](const SweepDesign& d) { return sim::config_value(d.config, key); }))
+                    keys_.push_back(&key);
+            }
         }
     }
     void add_columns(std::vector<TextTable::Column>& columns) const {

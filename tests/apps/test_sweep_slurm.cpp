@@ -78,41 +78,62 @@ class SweepSlurm : public CommandLine {
         return text;
     }
 
+    // Kills task 0 once it has done a point. The name of a journal ends in the id of its process.
+    static void kill_task_within(const std::filesystem::path& work) {
+        std::string process;
+        for (int i = 0; i < 10'000 && process.empty(); ++i) {
+            ::usleep(2'000);
+            for (const auto& entry : std::filesystem::directory_iterator(work)) {
+                const std::string name = entry.path().filename();
+                const bool is_journal = name.ends_with(".journal") && name.find("-0-") != std::string::npos;
+                if (is_journal && entry.file_size() > 0)
+                    process = name.substr(name.rfind('-') + 1, name.rfind('.') - name.rfind('-') - 1);
+            }
+        }
+        ASSERT_NE(process, "");
+        EXPECT_EQ(::kill(std::stoi(process), SIGKILL), 0);
+    }
+
   private:
     std::optional<Process> controller_, node_;
 };
 
-// A task is killed in the middle, then the sweep; another run goes on with the array that is still there, and
-// submits once more what the task left.
+// The sweep is killed, and another one goes on with its array; a task is killed in the middle, and what it
+// left is submitted once more.
 TEST_F(SweepSlurm, GivesWhatLocalProcessesGive) {
     static_cast<void>(folder_.write(
         "s.toml",
-        "scenes = [\"ball.glb\"]\nworkloads = [\"primary\", \"diffuse\"]\nresolution = [192, 192]\n"
-        "[axes]\nrtu.ray_slots = { from = 1, to = 6, step = 1 }\n"));
-    const std::vector<std::string> on_cluster{"sweep",          "s.toml", "--output",          "cluster.db",
-                                              "--executor",     "slurm",  "--points-per-task", "3",
-                                              "--poll-seconds", "0.2"};
-    Process sweep = start(on_cluster);
-    const std::string work = (folder_.path() / "cluster.db.work").string();
-    const auto first_journal = [&] { return shell("ls -s " + work + "/*-0-*.journal 2>/dev/null").out; };
-    for (int i = 0; i < 200 && (first_journal().empty() || first_journal().starts_with("0 ")); ++i)
-        ::usleep(20'000);
-    // The name of a journal ends in the id of its process.
-    const std::string killed = shell("ls " + work + " | sed -n 's/.*-0-.*-\\([0-9]*\\).journal/\\1/p'").out;
-    ASSERT_NE(killed, "");
-    EXPECT_EQ(::kill(std::stoi(killed), SIGKILL), 0);
-    ::kill(sweep.id(), SIGKILL);
-    static_cast<void>(sweep.wait());
+        "scenes = [\"ball.glb\"]\nworkloads = [\"primary\", \"diffuse\"]\nresolution = [160, 160]\n"
+        "[axes]\nrtu.ray_slots = { from = 1, to = 8, step = 1 }\n"));
+    std::vector<std::string> on_cluster{"sweep",          "s.toml", "--output",          "cluster.db",
+                                        "--executor",     "slurm",  "--points-per-task", "4",
+                                        "--poll-seconds", "0.2"};
+    std::vector<std::string> delayed = on_cluster;
+    delayed.emplace_back("--sbatch=--begin=now+600");
+    Process first = start(delayed);
+    std::string job;
+    for (int i = 0; i < 200 && job.empty(); ++i) {
+        ::usleep(50'000);
+        job = shell("squeue -h -o %A | head -1 | tr -d '\\n'").out;
+    }
+    ASSERT_NE(job, "");
+    ::kill(first.id(), SIGKILL);
+    static_cast<void>(first.wait());
     const ProcessResult meanwhile = run({"sweep", "s.toml", "--output", "cluster.db"});
-    const ProcessResult resumed = run(on_cluster);
-    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
     EXPECT_EQ(meanwhile.exit_code, 1);
-    EXPECT_THAT(meanwhile.err, testing::HasSubstr("Slurm still has job"));
+    EXPECT_THAT(meanwhile.err, testing::HasSubstr("Slurm still has job " + job));
+
+    Process second = start(on_cluster);
+    EXPECT_EQ(shell("scontrol update JobId=" + job + " StartTime=now").exit_code, 0);
+    kill_task_within(folder_.path() / "cluster.db.work");
+    const ProcessResult resumed = second.wait();
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+
     ASSERT_EQ(run({"sweep", "s.toml", "--output", "local.db"}).exit_code, 0);
     EXPECT_EQ(rows("cluster.db", "SELECT * FROM results"), rows("local.db", "SELECT * FROM results"));
-    EXPECT_EQ(rows("cluster.db", "SELECT count(*), max(completions) FROM host"), "6|1|\n");
+    EXPECT_EQ(rows("cluster.db", "SELECT count(*), max(completions) FROM host"), "8|1|\n");
     EXPECT_EQ(run({"diff", "local.db", "cluster.db", "--tolerance", "0"}).exit_code, 0);
-    EXPECT_FALSE(std::filesystem::exists(work));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "cluster.db.work"));
 }
 
 }  // namespace
