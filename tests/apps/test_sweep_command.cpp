@@ -210,6 +210,17 @@ TEST_F(SweepCommand, DiffTellsWhatChanged) {
     EXPECT_EQ(run({"diff", "a.db", "a.json"}).exit_code, 1);
 }
 
+// The examples of docs/sweeps.md.
+TEST_F(SweepCommand, ExamplesAreSweeps) {
+    std::size_t count = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(RTUSIM_SOURCE_DIR) + "/docs/sweeps")) {
+        EXPECT_THAT(sweep({entry.path().string(), "--dry-run"}), HasSubstr("Estimate")) << entry.path();
+        ++count;
+    }
+    EXPECT_EQ(count, 3U);
+}
+
 // A machine that needs more memory than there may be: its point fails, the others do not.
 TEST_F(SweepCommand, FailedPointsAreListedAndTheOthersDone) {
 #if defined(__SANITIZE_ADDRESS__)
