@@ -28,6 +28,7 @@ std::string missing(const std::vector<std::string>& rows, const char* where) {
 
 std::string change_table(const std::vector<ResultChange>& all, double tolerance_percent) {
     std::vector<const ResultChange*> changes;
+    changes.reserve(all.size());
     for (const ResultChange& change : all) changes.push_back(&change);
     // What the whole machine did stands first, then its units, the largest changes before the others.
     std::ranges::stable_sort(changes, {}, [](const ResultChange* change) {

@@ -35,9 +35,9 @@ SqlStatement& SqlStatement::bind(int parameter, double value) {
 }
 
 SqlStatement& SqlStatement::bind(int parameter, std::string_view value) {
-    // Null as the last argument but one would need a cast of the library's own macro: the copy is asked for.
-    check(sqlite3_bind_text64(statement_.get(), parameter, value.data(), value.size(),
-                              reinterpret_cast<sqlite3_destructor_type>(-1), SQLITE_UTF8));
+    const std::string& text = texts_.insert_or_assign(parameter, std::string(value)).first->second;
+    check(sqlite3_bind_text64(statement_.get(), parameter, text.data(), text.size(), SQLITE_STATIC,
+                              SQLITE_UTF8));
     return *this;
 }
 

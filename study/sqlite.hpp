@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -47,6 +48,7 @@ class SqlStatement {
     };
     sqlite3* connection_;
     std::string file_;
+    std::map<int, std::string> texts_;  // bound: they must outlive the step
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 

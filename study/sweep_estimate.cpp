@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t sample_side = 128; // pixels
+constexpr std::uint32_t sample_side = 128;  // pixels
 constexpr std::size_t sample_designs = 3;
 
 // A folder that is there as long as the object is.

@@ -7,29 +7,11 @@
 
 #include "model/error.hpp"
 #include "model/one_line.hpp"
+#include "sim/config_file.hpp"
 
 namespace rtu::study {
-namespace {
-
-// A dotted key nests a table for every second character, and the parser's tables are destroyed recursively.
-constexpr std::size_t max_line_bytes = 4096;
-
-void check_line_lengths(std::string_view text, const std::string& file) {
-    std::size_t line = 1;
-    for (std::size_t begin = 0; begin < text.size(); ++line) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
-        if (end - begin > max_line_bytes) {
-            throw Error("{}:{}: expected lines of at most {} bytes, got {}", file, line, max_line_bytes,
-                        end - begin);
-        }
-        begin = end + 1;
-    }
-}
-
-}  // namespace
-
 TomlReader::TomlReader(std::string_view text, std::string file) : file_(std::move(file)) {
-    check_line_lengths(text, file_);
+    sim::check_line_lengths(text, file_);
     try {
         root_ = toml::parse(text, file_);
     } catch (const toml::parse_error& error) {

@@ -161,9 +161,13 @@ TEST(SweepFront, HasWhatNoOtherBeats) {
             result.push_back(design.id);
         return result;
     };
-    EXPECT_THAT(
-        ids({{"small", {1, 1}}, {"worse", {1, 2}}, {"fast", {9, 9}}, {"middle", {5, 5}}, {"bad", {4, 6}}}),
-        ElementsAre("fast", "middle", "small"));
+    EXPECT_THAT(ids({{"small", {1, 1}},
+                     {"worse", {1, 2}},
+                     {"fast", {9, 9}},
+                     {"middle", {5, 5}},
+                     {"bad", {4, 6}},
+                     {"slow", {4, 5}}}),
+                ElementsAre("fast", "middle", "small"));
     EXPECT_THAT(ids({{"a", {3, 3}}, {"b", {3, 3}}}), ElementsAre("a", "b"));
     EXPECT_THAT(ids({}), IsEmpty());
 }
@@ -219,7 +223,7 @@ class LocalExecutor : public SweepResults {
         SweepWork work{program, folder_.path(), path("list"), {}, {}, {}, {}};
         for (std::size_t i = 0; i < 20; ++i) work.waiting.push_back(i);
         work.look = [] {};
-        work.still_waiting = [this] { return std::vector<std::size_t>{crashing_}; };
+        work.still_waiting = [this] { return waiting_; };
         work.give_up = [this](std::size_t point, const std::string& error) {
             given_up_.push_back(point);
             error_ = error;
@@ -232,7 +236,7 @@ class LocalExecutor : public SweepResults {
         std::getline(stream, text, '\0');
         return text;
     }
-    std::size_t crashing_ = 7;
+    std::vector<std::size_t> waiting_{7};
     std::vector<std::size_t> given_up_;
     std::string error_;
 };
@@ -243,6 +247,14 @@ TEST_F(LocalExecutor, GivesUpAPointThatKillsItsProcessThreeTimes) {
     EXPECT_THAT(given_up_, ElementsAre(7));
     EXPECT_THAT(error_, HasSubstr("was ended by signal 11 (Segmentation fault), 3 times"));
     EXPECT_EQ(answered(), "died\ndied\ndied\n");
+}
+
+TEST_F(LocalExecutor, APointThatIsInTheJournalIsNotDoneAgain) {
+    waiting_ = {};
+    const std::string log = path("answered").string();
+    run_local(work("[ $p = 7 ] && { echo died >> " + log + "; kill -KILL $$; }; echo done $p"), 2);
+    EXPECT_THAT(given_up_, IsEmpty());
+    EXPECT_EQ(answered(), "died\n");
 }
 
 TEST_F(LocalExecutor, StartsAnotherProcessAfterAPointThatFailed) {
