@@ -127,15 +127,17 @@ class SweepRun {
         ++(is_failure ? counts_.failed : counts_.done);
     }
 
-    // Looks for a better value of the first objective than the best so far, in one point or in all.
+    // Looks for a better value of the first objective than the best so far, in one point or (empty) in all.
     void find_best(const std::string& point) {
         const SweepObjective& objective = plan_.file.objectives.front();
         SqlStatement select = database_.sql().prepare(
             fmt::format("SELECT {0}, number FROM results WHERE workload = 'total' AND number IS NOT NULL AND "
                         "{0} IS NOT NULL"
-                        " AND (?1 = '' OR point = ?1) ORDER BY {0} {1} LIMIT 1",
-                        sql_name(objective.column), objective.is_maximised ? "DESC" : "ASC"));
-        if (!select.bind(1, point).next()) return;
+                        " {2} ORDER BY {0} {1} LIMIT 1",
+                        sql_name(objective.column), objective.is_maximised ? "DESC" : "ASC",
+                        point.empty() ? "" : "AND point = ?1"));
+        if (!point.empty()) select.bind(1, point);
+        if (!select.next()) return;
         if (best_ && !objective.is_better(select.real(0), best_->value)) return;
         best_ = {select.real(0), std::size_t(select.integer(1))};
     }
