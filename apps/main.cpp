@@ -13,6 +13,7 @@
 
 #include "apps/chart_command.hpp"
 #include "apps/config_command.hpp"
+#include "apps/diff_command.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/methods_command.hpp"
 #include "apps/pairing_command.hpp"
@@ -20,6 +21,7 @@
 #include "apps/run_command.hpp"
 #include "apps/stability_command.hpp"
 #include "apps/standard_output.hpp"
+#include "apps/sweep_command.hpp"
 #include "apps/trace_command.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
@@ -43,6 +45,8 @@ constexpr const char* footer =
     "  rtusim stability                        where ray-triangle methods fail, against exact arithmetic\n"
     "  rtusim precision bunny.glb              the cheapest test and number format for its rays\n"
     "  rtusim chart --html methods.html        the studies of ray-triangle tests as pictures\n"
+    "  rtusim sweep machines.toml              many machines, their results in one SQLite file\n"
+    "  rtusim diff before.json after.json      what changed between two runs or two sweeps\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -50,7 +54,8 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (!app.get_subcommands().empty()) return error.what();
     const std::vector<std::string> rest = app.remaining();
     std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* command :
+         app.get_subcommands([](const CLI::App* listed) { return !listed->get_group().empty(); }))
         names.push_back(command->get_name());
     const std::string last = names.back();
     names.pop_back();
@@ -98,6 +103,9 @@ int run_cli(int argc, char** argv) {
     add_stability_command(app, command);
     add_precision_command(app, command);
     add_chart_command(app, command);
+    add_sweep_command(app, command);
+    add_sweep_worker_command(app, command);
+    add_diff_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {
