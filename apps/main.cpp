@@ -15,6 +15,7 @@
 #include "apps/config_command.hpp"
 #include "apps/diff_command.hpp"
 #include "apps/exit_code.hpp"
+#include "apps/fidelity_command.hpp"
 #include "apps/methods_command.hpp"
 #include "apps/pairing_command.hpp"
 #include "apps/precision_command.hpp"
@@ -41,6 +42,7 @@ constexpr const char* footer =
     "  rtusim run --help                       all options of a run\n"
     "  rtusim trace --help                     record, replay and convert rays\n"
     "  rtusim pairing bunny.glb                what triangle pairing does to the hardware\n"
+    "  rtusim fidelity bunny.glb               how far off faster ways of telling MRPS are\n"
     "  rtusim methods                          how fast each ray-triangle test is on this host\n"
     "  rtusim stability                        where ray-triangle methods fail, against exact arithmetic\n"
     "  rtusim precision bunny.glb              the cheapest test and number format for its rays\n"
@@ -99,6 +101,7 @@ int run_cli(int argc, char** argv) {
     add_run_command(app, command);
     add_trace_command(app, command);
     add_pairing_command(app, command);
+    add_fidelity_command(app, command);
     add_methods_command(app, command);
     add_stability_command(app, command);
     add_precision_command(app, command);

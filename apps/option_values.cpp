@@ -100,6 +100,28 @@ study::RayInput parse_ray_input(const std::string& file, const std::string& form
     return input;
 }
 
+study::FidelityLevel parse_fidelity(std::string_view text) {
+    if (text == "rtl") {
+        throw Error(
+            "--fidelity: rtl is not built into this command; cycles are compared with RTL by the tests");
+    }
+    try {
+        return study::parse_fidelity_level(text);
+    } catch (const Error& error) {
+        throw Error("--fidelity: {}", error.what());
+    }
+}
+
+double parse_tolerance(std::string_view text) {
+    constexpr double least = 0.6, most = 50;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= least && value <= most)) {
+        throw Error("--tolerance: expected a number of percent from {} to {}, got '{}'", least, most, text);
+    }
+    return value / 100;
+}
+
 bool is_same_file(const fs::path& a, const fs::path& b) {
     std::error_code error;
     if (fs::equivalent(a, b, error)) return true;

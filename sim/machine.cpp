@@ -62,16 +62,51 @@ class Machine {
         const auto tell = [&] {
             if (progress) progress(source_.share());
         };
-        // The run cannot end before its first cycle, so a workload without rays gets none.
-        const auto is_done = [this] { return source_.is_done() && sink_.received() == source_.ray_count(); };
-        if (!source_.is_done()) result.cycles = domain_.run(is_done, tell);
+        advance([] { return false; }, tell);
+        result.cycles = cycles_;
         result.ray_count = source_.ray_count();
         collect(result);
         check(result);
         return result;
     }
 
+    void advance_to(std::uint64_t count) {
+        const auto is_there = [this, count] { return source_.ray_count() >= count; };
+        if (!is_there()) advance(is_there, {});
+    }
+
+    [[nodiscard]] MachineMark mark() const {
+        MachineMark mark{.cycles = cycles_, .rays = source_.ray_count(), .counts = {}};
+        for (const auto& node : nodes_) {
+            const Rtu& rtu = node->rtu;
+            mark.counts += counts_of(rtu);
+            mark.leaf_visits += rtu.pair.counters().leaf_visits;
+            mark.l1_misses += rtu.l1.counters().misses;
+        }
+        mark.l2_misses = l2_.counters().misses;
+        return mark;
+    }
+
+    void warm(std::uint32_t rtu, std::uint64_t address, std::uint32_t size_bytes) {
+        nodes_[rtu]->rtu.l1.warm(address, size_bytes, [this](std::uint64_t first, std::uint32_t bytes) {
+            l2_.warm(first, bytes, [](std::uint64_t, std::uint32_t) {});
+        });
+    }
+
   private:
+    // Until all rays have returned, or `is_there()`. The run cannot end before its first cycle, so a workload
+    // without rays gets none.
+    void advance(const std::function<bool()>& is_there, const std::function<void()>& tell) {
+        const auto is_done = [this] { return source_.is_done() && sink_.received() == source_.ray_count(); };
+        if (is_done()) return;
+        cycles_ = domain_.run([&] { return is_there() || is_done(); }, tell);
+    }
+
+    static model::TraversalCounts counts_of(const Rtu& rtu) {
+        return {rtu.box.counters().node_visits, rtu.box.counters().box_tests, rtu.pair.counters().pair_tests,
+                rtu.pair.counters().triangle_tests};
+    }
+
     // An RTU, and its way to the L2 and back.
     struct Node {
         Node(const std::string& name, ClockDomain& domain, const Config& config, std::uint32_t index,
@@ -112,8 +147,7 @@ class Machine {
                 {prefix + "pair", rtu.pair.cycle_account(), values(pair_counter_rows, rtu.pair.counters())});
             result.memory.push_back(
                 {prefix + "l1", rtu.l1.cycle_account(), values(cache_counter_rows, rtu.l1.counters())});
-            result.counts += {rtu.box.counters().node_visits, rtu.box.counters().box_tests,
-                              rtu.pair.counters().pair_tests, rtu.pair.counters().triangle_tests};
+            result.counts += counts_of(rtu);
         }
         result.units.push_back({"hit_sink", sink_.cycle_account(), {}});
         result.memory.push_back({"l2", l2_.cycle_account(), values(cache_counter_rows, l2_.counters())});
@@ -149,6 +183,7 @@ class Machine {
     Dram dram_;
     Fifo<MemoryRequest> dram_requests_;
     Fifo<MemoryReply> dram_replies_;
+    Cycle cycles_ = 0;
 };
 
 }  // namespace
@@ -170,6 +205,32 @@ MachineResult simulate(const Config& config, const model::MemoryImage& image,
         config, image, supply, kind, [&hits](const auto& hit) { hits.push_back(hit); }, mode, progress);
     result.hits = std::move(hits);
     return result;
+}
+
+class MachineSession::Parts {
+  public:
+    Parts(const Config& config, const model::MemoryImage& image, RaySupply& rays, model::RayKind kind)
+        : machine(
+              config, image, rays, kind, [](const std::optional<model::Hit>&) {}, ClockMode::Fast) {}
+    Machine machine;
+};
+
+MachineSession::MachineSession(const Config& config, const model::MemoryImage& image, RaySupply& rays,
+                               model::RayKind kind) {
+    start_fresh_kernel();
+    parts_ = std::make_unique<Parts>(config, image, rays, kind);
+}
+
+MachineSession::~MachineSession() = default;
+
+void MachineSession::advance_to(std::uint64_t count) { parts_->machine.advance_to(count); }
+
+void MachineSession::finish() { static_cast<void>(parts_->machine.run({})); }
+
+MachineMark MachineSession::mark() const { return parts_->machine.mark(); }
+
+void MachineSession::warm(std::uint32_t rtu, std::uint64_t address, std::uint32_t size_bytes) {
+    parts_->machine.warm(rtu, address, size_bytes);
 }
 
 }  // namespace rtu::sim
