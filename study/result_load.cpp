@@ -20,21 +20,21 @@ void collect_numbers(const Json& json, const std::string& path, std::map<std::st
     if (json.is_number()) numbers[path] = json.get<double>();
     if (!json.is_object()) return;
     for (const auto& [name, value] : json.items()) {
-        collect_numbers(value, path.empty() ? name : path + "." + name, numbers);
+        collect_numbers(value, path.empty() ? name : fmt::format("{}.{}", path, name), numbers);
     }
 }
 
 void add_scene(const Json& report, ResultSet& result) {
     const std::string scene = text_of(report.at("scene").at("name"));
     for (const char* name : {"version", "preset", "input_hash", "seed", "resolution", "camera"}) {
-        result.inputs[scene + " " + name] = text_of(report.at(name));
+        result.inputs[fmt::format("{} {}", scene, name)] = text_of(report.at(name));
     }
     for (const char* name : {"method", "edge_identity"})
-        result.inputs[scene + " pairing " + name] = text_of(report.at("pairing").at(name));
+        result.inputs[fmt::format("{} pairing {}", scene, name)] = text_of(report.at("pairing").at(name));
     for (const auto& [key, value] : report.at("config").items())
-        result.inputs[scene + " " + key] = text_of(value);
+        result.inputs[fmt::format("{} {}", scene, key)] = text_of(value);
     for (const Json& workload : report.at("workloads")) {
-        collect_numbers(workload, "", result.rows[scene + " " + text_of(workload.at("name"))]);
+        collect_numbers(workload, "", result.rows[fmt::format("{} {}", scene, text_of(workload.at("name")))]);
     }
     collect_numbers(report.at("total"), "", result.rows[scene + " total"]);
 }

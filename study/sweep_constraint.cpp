@@ -123,7 +123,7 @@ class Parser {
     Sum factor() {
         if (take("(")) {
             if (++depth_ > most_parentheses) fail("fewer parentheses");
-            const Sum inner = sum();
+            Sum inner = sum();
             if (!take(")")) fail("')'");
             --depth_;
             return inner;
