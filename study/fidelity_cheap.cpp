@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "model/traversal.hpp"
@@ -19,6 +20,16 @@ constexpr std::uint32_t part_positions = 1 << 16;
 double analytic_allowance(const AnalyticResult& result) {
     constexpr double always = 0.06, of_memory = 0.9;
     return always + of_memory * result.memory_share + result.ends_share;
+}
+
+RayWork mean_work(const WorkloadProfile& profile) {
+    RayWork sum;
+    double rays = 0;
+    for (const ProfileBlock& block : profile.blocks) {
+        sum += block.rays * block.per_ray;
+        rays += block.rays;
+    }
+    return rays > 0 ? 1 / rays * sum : sum;
 }
 
 }  // namespace
@@ -60,8 +71,16 @@ LevelResult run_analytic(const sim::Config& config, const model::MemoryImage& im
     const AnalyticResult found = analyse(config, profile);
     LevelResult result;
     const double allowance = analytic_allowance(found);
+    // So few rays never come to the steady state that the model describes: nothing bounds its error but the
+    // peak rates.
+    const bool is_steady = found.rays >= 16.0 * config.rtu.ray_slots * config.rtu.count;
     result.estimate = {found.cycles_per_ray, found.cycles_per_ray * std::max(0.0, 1 - allowance),
                        found.cycles_per_ray * (1 + allowance), found.rays};
+    if (!is_steady) {
+        result.estimate.low =
+            std::min(found.cycles_per_ray, least_cycles_per_ray(config, mean_work(profile)));
+        result.estimate.high = std::numeric_limits<double>::infinity();
+    }
     result.traced_rays = profile.traced_rays;
     result.level = "analytic";
     result.account = fmt::format("queueing model: limited by {}, misses take {:.0f} % of the cycles",
@@ -79,8 +98,11 @@ LevelResult run_auto(const sim::Config& config, const model::MemoryImage& image,
         result.cpu_seconds += analytic.cpu_seconds;
         result.traced_rays += analytic.traced_rays;
     }
-    result.account = fmt::format("{}: {}; analytic: {:.1f} % off at most, {}", result.level, result.account,
-                                 100 * analytic.estimate.relative_half_width(), analytic.account);
+    const double bound = analytic.estimate.relative_half_width();
+    const std::string stated = std::isfinite(bound) ? fmt::format("{:.1f} % off at most", 100 * bound)
+                                                    : std::string("too few rays for a bound");
+    result.account =
+        fmt::format("{}: {}; analytic: {}, {}", result.level, result.account, stated, analytic.account);
     return result;
 }
 

@@ -157,9 +157,9 @@ std::string estimates_text(std::span<const FidelityRow> rows) {
 Chart fidelity_chart(const FidelityReport& report) {
     Chart chart;
     chart.name = "fidelity";
-    chart.title = "What a level costs and how far off it is: a point for every scene";
+    chart.title = "Host speed and error of each level against every ray simulated: a point for every scene";
     chart.x_label = "rays of the workload per second of host CPU time, median";
-    chart.y_label = "error of MRPS against every ray simulated, %, median";
+    chart.y_label = "error of MRPS, %, median";
     chart.is_x_logarithmic = true;
     chart.x_base = 10;
     chart.y_floor = 0.01;
