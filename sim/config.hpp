@@ -34,8 +34,13 @@ struct Config {
         std::uint32_t results_per_cycle = 2;  ///< unit results that the scheduler takes a cycle
         std::uint32_t fetches_per_cycle = 2;  ///< requests that it sends to the L1 a cycle
 
+        struct Scheduler {
+            std::uint32_t latency_cycles = 3;  ///< from taking a result to what follows from it
+        } scheduler;
+
         struct Box {
             std::uint32_t boxes_per_cycle = 4;
+            std::uint32_t nodes_per_cycle = 1;
             std::uint32_t latency_cycles = 12;
         } box;
 

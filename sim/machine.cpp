@@ -15,16 +15,11 @@ namespace rtu::sim {
 
 namespace {
 
-constexpr std::uint64_t page_bytes = 4096;
-
-std::uint64_t round_up(std::uint64_t value, std::uint64_t to) { return (value + to - 1) / to * to; }
-
-// Each RTU's stacks lie behind the image, a whole number of lines a slot.
-StackRegion stack_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
-    const std::uint64_t slot_bytes = round_up(
-        (model::stack_capacity(image) + spill_block_entries) * stack_entry_bytes, config.l1.line_bytes);
-    const std::uint64_t first_slot = std::uint64_t(rtu) * config.rtu.ray_slots;
-    return {round_up(image.size_bytes(), page_bytes) + first_slot * slot_bytes, slot_bytes};
+// Each RTU's stacks lie behind those of the RTUs before it.
+model::StackRegion stack_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
+    model::StackRegion region = model::stack_region(image, config.rtu.stack_entries, config.l1.line_bytes);
+    region.base_address += std::uint64_t(rtu) * config.rtu.ray_slots * region.slot_bytes;
+    return region;
 }
 
 template <class Counters, std::size_t N>
