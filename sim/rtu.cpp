@@ -15,6 +15,11 @@ std::size_t hits_depth(const Config::Rtu& config) {
            std::size_t(config.scheduler.latency_cycles) * config.results_per_cycle;
 }
 
+// An L2 may answer all that the L1 has outstanding; a flat memory keeps what the L1 cannot take.
+std::size_t fill_depth(const Config& config) {
+    return config.memory.model == MemoryModel::Flat ? flat_fill_depth : config.l1.mshrs;
+}
+
 }  // namespace
 
 Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config, std::uint32_t index,
@@ -22,7 +27,7 @@ Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config
     : sc_core::sc_module(name),
       rays_in("rays", 2, domain),
       hits_out("hits", hits_depth(config.rtu), domain),
-      fills_in("fills", config.l1.mshrs, domain),
+      fills_in("fills", fill_depth(config), domain),
       slots_(config.rtu.ray_slots),
       requests_("requests", depth_for(config.rtu.fetches_per_cycle), domain),
       nodes_("nodes", depth_for(config.l1.banks), domain),
