@@ -9,7 +9,8 @@
 #   depth            two-input gates and multiplexers between two registers, at most; mapped without restructuring
 #
 # Multipliers and adders are synthesised once and counted as often as they are used, and so are the parts of the pair
-# tester, first pass and hit unit; the rest of a unit is flattened. Arrays (pair_ram) are not counted.
+# tester, first pass and hit unit; the rest of a unit is flattened. Arrays (modules pair_ram and storage) have no body
+# here, and no gates.
 # usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value; without any, all units of gates.csv
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -17,13 +18,13 @@ cd "$(dirname "$(readlink -f "$0")")/.."
 all_units=(fp32_mul fp32_add fp32_compare near_to_far:Width=2 near_to_far:Width=4 near_to_far:Width=6
     near_to_far:Width=8 box_tester:Width=2 box_tester:Width=4 box_tester:Width=6 box_tester:Width=8 pair_reject:Mode=0
     pair_reject:Mode=1 pair_reject:Mode=2 exact_accumulator hit_unit pair_tester:Mode=0 pair_tester:Mode=1
-    pair_tester:Mode=2)
+    pair_tester:Mode=2 cache_control:Ways=4 cache_control:Ways=16 cache_data)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # A unit's modules are read as they are needed: what Yosys makes of one depends a little on everything that it has read.
 mapfile -t packages < <(ls ./*/*_pkg.sv)
-folders=(-libdir fp -libdir box -libdir pair -libdir exact)
+folders=(-libdir fp -libdir box -libdir pair -libdir exact -libdir cache)
 
 # synthesise MODULE [PARAMETER=VALUE]: leaves area.txt and depth.txt in the work folder.
 synthesise() {
