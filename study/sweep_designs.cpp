@@ -158,6 +158,7 @@ std::vector<SweepDesign> sampled(const SweepFile& file, const DesignMaker& maker
     }
     std::ranges::sort(chosen, {}, [](const auto& entry) { return entry.first; });
     std::vector<SweepDesign> result;
+    result.reserve(chosen.size());
     for (auto& entry : chosen) result.push_back(std::move(entry.second));
     return result;
 }
