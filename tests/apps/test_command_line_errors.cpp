@@ -62,9 +62,10 @@ TEST_F(CommandLineErrors, WrongUsageIsExitCodeTwo) {
 TEST_F(CommandLineErrors, AnUnknownCommandIsNamed) {
     EXPECT_THAT(
         run({"fly"}).err,
-        HasSubstr("expected a command, run, trace, pairing, methods, stability, precision, chart or config, "
-                  "got 'fly'"));
-    EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, trace, pairing, methods, "));
+        HasSubstr(
+            "expected a command, run, trace, pairing, fidelity, methods, stability, precision, chart or "
+            "config, got 'fly'"));
+    EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, trace, pairing, fidelity, methods, "));
 }
 
 TEST_F(CommandLineErrors, BadValuesAreNamedInOneLine) {
