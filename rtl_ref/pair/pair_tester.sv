@@ -41,13 +41,14 @@ module pair_tester #(
   localparam int unsigned HitWidth = NameWidth + 129;
 
   // A pair takes the entry that was chosen for it before: the lowest free one. Its own is free when its result has left.
-  logic [Entries-1:0] is_used_q, is_free;
+  logic [Entries-1:0] is_used_q, is_free, lowest;
   logic [EntryWidth-1:0] entry_q, lowest_free, freed_entry;
   logic has_entry_q, accepts, leaves, first_ready;
   always_comb begin
+    lowest = is_free & (~is_free + Entries'(1));
     lowest_free = '0;
-    for (int i = Entries - 1; i >= 0; i--) begin
-      if (is_free[i]) lowest_free = EntryWidth'(i);
+    for (int unsigned i = 0; i < Entries; i++) begin
+      if (lowest[i]) lowest_free = lowest_free | EntryWidth'(i);
     end
   end
   assign ready_o = has_entry_q & first_ready;
