@@ -86,7 +86,7 @@ TYPED_TEST(PairReject, HasTheDocumentedLatency) {
         return vector;
     });
     ASSERT_TRUE(tally.cycles);
-    EXPECT_EQ(tally.cycles->first_result, 33U);
+    EXPECT_EQ(tally.cycles->first_result, sim::Config{}.rtu.pair.latency_cycles);
 }
 
 TYPED_TEST(PairReject, LosesNothingToHesitantNeighbours) {

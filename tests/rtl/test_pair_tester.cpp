@@ -9,6 +9,7 @@
 #include "hit_vectors.hpp"
 #include "rtl_ref/harness/clock.hpp"
 #include "rtl_ref/harness/stream.hpp"
+#include "sim/config.hpp"
 
 namespace rtu {
 namespace {
@@ -88,6 +89,10 @@ TYPED_TEST(PairTester, FindsTheHitsOfTheModel) {
     EXPECT_TRUE(compare<TypeParam>(test::vector_count(3'000), test::DrawHit(51)));
 }
 
+// In cycles, as simulated.
+constexpr sim::Config::Rtu::Pair simulated;
+constexpr std::uint64_t first_pass = simulated.latency_cycles, queue = 2;
+
 // A lone triangle at distance 1, before which the ray ends, or not, or which it misses.
 HitVector at_distance_1(float t_max, float origin_x = 0) {
     HitVector vector;
@@ -101,16 +106,18 @@ TYPED_TEST(PairTester, HasTheDocumentedLatencies) {
     const auto latency = [](const HitVector& vector) {
         return *compare<TypeParam>(1, [&] { return vector; });
     };
-    EXPECT_EQ(latency(at_distance_1(2, 9)), 33U);
-    EXPECT_EQ(latency(at_distance_1(1)), 33U + 2 + 56);
-    EXPECT_EQ(latency(at_distance_1(2)), 33U + 2 + 92);
+    EXPECT_EQ(latency(at_distance_1(2, 9)), first_pass);
+    EXPECT_EQ(latency(at_distance_1(1)), first_pass + queue + simulated.reject_cycles);
+    EXPECT_EQ(latency(at_distance_1(2)), first_pass + queue + simulated.hit_cycles);
 }
 
 // Three hit units: the fourth pair waits for the first one's to be free, a cycle after its result.
 TYPED_TEST(PairTester, TakesALoneTriangleACycleAndKeepsSurvivorsWaiting) {
-    EXPECT_EQ(compare<TypeParam>(200, [] { return at_distance_1(2, 9); }), 199U + 33);
-    EXPECT_EQ(compare<TypeParam>(3, [] { return at_distance_1(2); }), 33U + 2 + 92 + 2);
-    EXPECT_EQ(compare<TypeParam>(4, [] { return at_distance_1(2); }), 33U + 2 + 92 + 1 + 92);
+    EXPECT_EQ(compare<TypeParam>(200, [] { return at_distance_1(2, 9); }), 199 + first_pass);
+    EXPECT_EQ(compare<TypeParam>(3, [] { return at_distance_1(2); }),
+              first_pass + queue + simulated.hit_cycles + 2);
+    EXPECT_EQ(compare<TypeParam>(4, [] { return at_distance_1(2); }),
+              first_pass + queue + simulated.hit_cycles + 1 + simulated.hit_cycles);
 }
 
 TYPED_TEST(PairTester, LosesNothingToHesitantNeighbours) {
