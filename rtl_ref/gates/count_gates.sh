@@ -8,7 +8,7 @@
 #   adders
 #   depth            two-input gates and multiplexers between two registers, at most; mapped without restructuring
 #
-# The arrays of the cache (module storage) have no body here, and no gates.
+# The arrays of the cache (module storage) have no body here: no gates, and a path ends at them.
 # Multipliers and adders are synthesised once and counted as often as they are used; the rest of a unit is flattened.
 # usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value; without any, all units of gates.csv
 set -euo pipefail
@@ -45,6 +45,7 @@ synthesise() {
         abc -fast -g AND,NAND,OR,NOR,XOR,XNOR,MUX
         setattr -mod -unset keep_hierarchy *
         flatten
+        delete t:storage
         tee -q -o $work/depth.txt ltp -noff" >"$work/log.txt" 2>&1 || {
         cat "$work/log.txt" >&2
         return 1
