@@ -8,15 +8,17 @@
 #   adders
 #   depth            two-input gates and multiplexers between two registers, at most; mapped without restructuring
 #
-# The arrays of the cache (module storage) have no body here: no gates, and a path ends at them.
-# Multipliers and adders are synthesised once and counted as often as they are used; the rest of a unit is flattened.
+# Multipliers and adders are synthesised once and counted as often as they are used, and so are the parts of the pair
+# tester, first pass and hit unit; the rest of a unit is flattened. Arrays (pair_ram, and storage of the cache) have no
+# body here: no gates, and a path ends at them.
 # usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value; without any, all units of gates.csv
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
 all_units=(fp32_mul fp32_add fp32_compare near_to_far:Width=2 near_to_far:Width=4 near_to_far:Width=6
     near_to_far:Width=8 box_tester:Width=2 box_tester:Width=4 box_tester:Width=6 box_tester:Width=8 pair_reject:Mode=0
-    pair_reject:Mode=1 pair_reject:Mode=2 exact_side cache_control:Ways=4 cache_control:Ways=16 cache_data)
+    pair_reject:Mode=1 pair_reject:Mode=2 exact_accumulator hit_unit pair_tester:Mode=0 pair_tester:Mode=1
+    pair_tester:Mode=2 cache_control:Ways=4 cache_control:Ways=16 cache_data)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -34,6 +36,8 @@ synthesise() {
         rename -top unit
         setattr -mod -set keep_hierarchy 1 fp32_mul
         setattr -mod -set keep_hierarchy 1 fp32_add
+        setattr -mod -set keep_hierarchy 1 *pair_reject*
+        setattr -mod -set keep_hierarchy 1 *hit_unit*
         synth -flatten -top unit
         dfflegalize -cell \$_DFF_P_ x -cell \$_DFFE_PP_ x -cell \$_DFF_PN0_ x -cell \$_DFFE_PN0P_ x
         design -save generic
