@@ -9,8 +9,8 @@
 #   depth            two-input gates and multiplexers between two registers, at most; mapped without restructuring
 #
 # Multipliers and adders are synthesised once and counted as often as they are used, and so are the parts of the pair
-# tester, first pass and hit unit; the rest of a unit is flattened. Arrays (modules pair_ram and storage) have no body
-# here: no gates, and a path ends at them.
+# tester, first pass and hit unit; the rest of a unit is flattened. Arrays (pair_ram, and storage of the cache) have no
+# body here: no gates, and a path ends at them.
 # usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value; without any, all units of gates.csv
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
