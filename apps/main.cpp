@@ -11,6 +11,7 @@
 #include <systemc>
 #include <vector>
 
+#include "apps/area_command.hpp"
 #include "apps/chart_command.hpp"
 #include "apps/config_command.hpp"
 #include "apps/exit_code.hpp"
@@ -43,6 +44,7 @@ constexpr const char* footer =
     "  rtusim stability                        where ray-triangle methods fail, against exact arithmetic\n"
     "  rtusim precision bunny.glb              the cheapest test and number format for its rays\n"
     "  rtusim chart --html methods.html        the studies of ray-triangle tests as pictures\n"
+    "  rtusim area                             gates of the machine, and of sharing a pair's common edge\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -98,6 +100,7 @@ int run_cli(int argc, char** argv) {
     add_stability_command(app, command);
     add_precision_command(app, command);
     add_chart_command(app, command);
+    add_area_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

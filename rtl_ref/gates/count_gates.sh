@@ -9,13 +9,14 @@
 #   depth            two-input gates and multiplexers between two registers, at most; mapped without restructuring
 #
 # Multipliers and adders are synthesised once and counted as often as they are used; the rest of a unit is flattened.
-# usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value; without any, all units of gates.csv
+# usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value:...; without any, all units of gates.csv
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
-all_units=(fp32_mul fp32_add fp32_compare near_to_far:Width=2 near_to_far:Width=4 near_to_far:Width=6
-    near_to_far:Width=8 box_tester:Width=2 box_tester:Width=4 box_tester:Width=6 box_tester:Width=8 pair_reject:Mode=0
-    pair_reject:Mode=1 pair_reject:Mode=2 exact_side)
+all_units=(fp32_mul fp32_add fp32_compare stream_fifo:Width=7:Depth=8 stream_fifo:Width=161:Depth=6
+    stream_fifo:Width=64:Depth=16 near_to_far:Width=2 near_to_far:Width=3 near_to_far:Width=4 near_to_far:Width=6
+    near_to_far:Width=8 slab_lane box_tester:Width=2 box_tester:Width=3 box_tester:Width=4 box_tester:Width=6
+    box_tester:Width=8 pair_reject:Mode=0 pair_reject:Mode=1 pair_reject:Mode=2 exact_side)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -23,12 +24,13 @@ trap 'rm -rf "$work"' EXIT
 mapfile -t packages < <(ls ./*/*_pkg.sv)
 folders=(-libdir fp -libdir box -libdir pair -libdir exact)
 
-# synthesise MODULE [PARAMETER=VALUE]: leaves area.txt and depth.txt in the work folder.
+# synthesise MODULE [PARAMETER=VALUE]...: leaves area.txt and depth.txt in the work folder.
 synthesise() {
-    local top=$1 setting=${2:-}
+    local top=$1 setting settings=""
+    for setting in "${@:2}"; do settings+="chparam -set ${setting/=/ } $top; "; done
     yosys -q -p "
         read_verilog -sv ${packages[*]} $(ls ./*/"$top.sv")
-        ${setting:+chparam -set ${setting/=/ } $top}
+        $settings
         hierarchy -top $top ${folders[*]}
         rename -top unit
         setattr -mod -set keep_hierarchy 1 fp32_mul
@@ -67,7 +69,7 @@ row() {
 echo "# $(yosys -V | cut -d' ' -f1,2), gates/count_gates.sh"
 echo "unit,gates,register_bits,register_gates,multipliers,adders,depth"
 for unit in "$@"; do
-    IFS=: read -r module parameter <<<"$unit"
-    synthesise "$module" "$parameter"
+    IFS=: read -ra words <<<"$unit"
+    synthesise "${words[@]}"
     row "$unit"
 done
