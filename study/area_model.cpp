@@ -114,7 +114,7 @@ void add_queues(const sim::Config& config, std::vector<AreaPart>& parts) {
                                 fmt::format("queue of {} x {} bits", depth, bits)));
     };
     // Data of nodes and leaves lies in arrays: only a few of many bits are read in a cycle.
-    const auto add_wide = [&](std::string name, std::uint32_t depth, std::uint32_t bits) {
+    const auto add_wide = [&](const std::string& name, std::uint32_t depth, std::uint32_t bits) {
         add(name, depth, slot_bits);
         parts.push_back(array("queues", name + " data", depth, bits, "bits of an entry"));
     };
@@ -145,7 +145,8 @@ GateCounts box_common_area() { return minus(lanes_of(2), times(2, box_lane_area(
 
 std::vector<AreaPart> box_area(std::uint32_t lanes, std::uint32_t width) {
     if (lanes % width == 0) {
-        return {counted("box", "box tester", lanes / width, fmt::format("box_tester:Width={}", width))};
+        const std::uint32_t testers = lanes / width;
+        return {counted("box", "box tester", testers, fmt::format("box_tester:Width={}", width))};
     }
     const std::uint32_t nodes = std::max(1U, lanes / width);
     std::vector<AreaPart> parts{
