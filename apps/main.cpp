@@ -22,6 +22,7 @@
 #include "apps/stability_command.hpp"
 #include "apps/standard_output.hpp"
 #include "apps/trace_command.hpp"
+#include "apps/validate_command.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
 #include "study/version.hpp"
@@ -45,6 +46,7 @@ constexpr const char* footer =
     "  rtusim precision bunny.glb              the cheapest test and number format for its rays\n"
     "  rtusim chart --html methods.html        the studies of ray-triangle tests as pictures\n"
     "  rtusim area                             gates of the machine, and of sharing a pair's common edge\n"
+    "  rtusim validate                         hits, counts and cycles against the RTL reference\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -101,6 +103,7 @@ int run_cli(int argc, char** argv) {
     add_precision_command(app, command);
     add_chart_command(app, command);
     add_area_command(app, command);
+    add_validate_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

@@ -14,14 +14,15 @@ constexpr double and2 = 1.33, xnor2 = 2.00, mux2 = 2.33, flip_flop_enabled = 5.8
 // Logic of a queue, fitted to stream_fifo: a bit of a pointer; a bit of the output for each entry but one,
 // and once.
 constexpr double pointer_step = 6, entry_select = 1.80, output_select = 0.53;
+// The same of multi_fifo: a bit for each that is read a cycle, for each input but one, and what is seen in
+// the cycle before it is there.
+constexpr double multi_read = 2.00, multi_write = 2.70, multi_bypass = 1.60;
 constexpr std::uint32_t stack_entry_bits = 64;
+constexpr std::uint32_t counted_stack = 16;  // entries of the stacks of gates.csv
 
 std::uint32_t ceil_log2(std::uint64_t count) {
     return count <= 1 ? 0 : std::uint32_t(std::bit_width(count - 1));
 }
-
-// Of a request on its way to the L1: address, size in bytes, slot, who gets the reply, whether it writes.
-std::uint32_t request_bits(std::uint32_t slot_bits) { return address_bits + 9 + slot_bits + 2 + 1; }
 
 const GateCounts& order_of(std::uint32_t width) {
     return gate_counts(fmt::format("near_to_far:Width={}", width));
@@ -38,12 +39,6 @@ GateCounts registers(double bits) {
 
 GateCounts logic(double gates) { return {.gates = gates}; }
 
-// a < b: a comparator without its registers and the two multiplexers behind it.
-GateCounts comparison() {
-    const GateCounts& unit = gate_counts("fp32_compare");
-    return {.gates = unit.gates - unit.register_gates - 64 * mux2, .depth = unit.depth};
-}
-
 // A part that is as it was synthesised.
 AreaPart counted(std::string unit, std::string name, double copies, const std::string& row) {
     return {std::move(unit), std::move(name), copies, gate_counts(row), 0, true, row};
@@ -51,6 +46,13 @@ AreaPart counted(std::string unit, std::string name, double copies, const std::s
 
 AreaPart formula(std::string unit, std::string name, double copies, const GateCounts& each, std::string how) {
     return {std::move(unit), std::move(name), copies, each, 0, false, std::move(how)};
+}
+
+// A counted unit of another size, to which it is taken to be proportional.
+AreaPart scaled(std::string unit, std::string name, double copies, const std::string& row, double share) {
+    if (share == 1) return counted(std::move(unit), std::move(name), copies, row);
+    GateCounts each = times(share, gate_counts(row));
+    return formula(std::move(unit), std::move(name), copies, each, fmt::format("{:.3f} {}", share, row));
 }
 
 AreaPart array(std::string unit, std::string name, double copies, double bits_each, std::string how) {
@@ -89,43 +91,68 @@ void add_l1(const sim::Config& config, std::vector<AreaPart>& parts) {
                             "8 line_bytes (banks - 1) MUX2"));
 }
 
+// Bits of the memories of a slot in rtl_ref/rtu: what box unit, pair unit and scheduler each keep of a ray.
+constexpr double box_ray_bits = 355, pair_ray_bits = 322, scheduler_ray_bits = 65;
+constexpr double best_hit_bits = 128 + 32 + 64;  // and what of it box and pair unit read beside it
+constexpr std::uint32_t hit_bits = 161, block_bits = 12, spill_bits = 3;
+
+// The stack's ring: what a visit leaves above the entries that stay is still in it.
+std::uint32_t row_of(const sim::Config& config) { return config.rtu.stack_entries + config.bvh.width - 1; }
+
+std::uint32_t payload_bits(const sim::Config& config) {
+    return stack_entry_bits * std::max(4U, config.bvh.width);
+}
+
+// What decides for one result a cycle, and the registers between its stages.
+void add_lanes(const sim::Config& config, std::vector<AreaPart>& parts) {
+    const sim::Config::Rtu& rtu = config.rtu;
+    const std::uint32_t row = row_of(config), counted_row = counted_stack + config.bvh.width - 1;
+    const std::uint32_t slot_bits = ceil_log2(rtu.ray_slots);
+    const double share = double(row) / counted_row;
+    const std::string step = fmt::format("ray_step:Width={}:Row={}", config.bvh.width, counted_row);
+    parts.push_back(scaled("scheduler", "ray step", rtu.results_per_cycle, step, share));
+    parts.push_back(
+        scaled("scheduler", "stack survivors", rtu.results_per_cycle, "stack_survivors:Row=19", row / 19.0));
+    const double common = payload_bits(config) + 4 + 1 + 1 + slot_bits;
+    const double second = common,
+                 third = common + 33 * row + 2 * ceil_log2(row + 1) + block_bits + 2 + 128 + 32;
+    GateCounts stages = registers(second + third + hit_bits);
+    stages += logic((2 * common + 128) * mux2);
+    parts.push_back(formula("scheduler", "stages", rtu.results_per_cycle, stages,
+                            "registers between stages, and their MUX2"));
+}
+
 void add_scheduler(const sim::Config& config, std::vector<AreaPart>& parts) {
     const sim::Config::Rtu& rtu = config.rtu;
-    const double row_bits = double(stack_entry_bits) * rtu.stack_entries;
     const std::uint32_t slot_bits = ceil_log2(rtu.ray_slots);
-    parts.push_back(array("scheduler", "ray slots", rtu.ray_slots, ray_slot_bits, "docs/area.md"));
-    parts.push_back(array("scheduler", "stacks", rtu.ray_slots, row_bits, "64 stack_entries"));
-    parts.push_back(array("scheduler", "free slots", rtu.ray_slots, slot_bits, "log2 slots"));
-    parts.push_back(array("scheduler", "fetch queue", rtu.ray_slots, request_bits(slot_bits),
-                          "address, size, slot, who, write"));
-    GateCounts pop = times(rtu.stack_entries, comparison());
-    pop += logic((rtu.stack_entries - 1) * double(stack_entry_bits) * mux2);
-    parts.push_back(formula("scheduler", "stack pop", rtu.results_per_cycle, pop,
-                            "stack_entries comparisons, 64 (stack_entries - 1) MUX2"));
-    parts.push_back(formula("scheduler", "stack push", rtu.results_per_cycle,
-                            logic(row_bits * config.bvh.width * mux2), "64 stack_entries width MUX2"));
+    const double state_bits = 2 * ceil_log2(row_of(config) + 1) + block_bits;
+    const double ray_bits = box_ray_bits + pair_ray_bits + scheduler_ray_bits + best_hit_bits + state_bits;
+    parts.push_back(array("scheduler", "ray slots", rtu.ray_slots, ray_bits, "docs/area.md"));
+    parts.push_back(array("scheduler", "stacks", rtu.ray_slots, stack_entry_bits * double(row_of(config)),
+                          "64 (stack_entries + width - 1)"));
+    add_lanes(config, parts);
+    parts.push_back(counted("scheduler", "choice of results", 1, "result_select"));
+    parts.push_back(counted("scheduler", "issue of requests", 1, "order_issue"));
+    parts.push_back(
+        formula("scheduler", "free slots", 1, free_slots_area(rtu.ray_slots), "slots x log2 slots bits"));
+    const std::uint32_t order_bits = block_bits + ceil_log2(row_of(config)) + spill_bits + 33 + slot_bits;
+    parts.push_back(formula("scheduler", "orders", 1,
+                            multi_queue_area({rtu.ray_slots, order_bits, rtu.results_per_cycle + 1, 2}, true),
+                            fmt::format("queue of {} x {} bits", rtu.ray_slots, order_bits)));
 }
 
 void add_queues(const sim::Config& config, std::vector<AreaPart>& parts) {
     const sim::Config::Rtu& rtu = config.rtu;
-    const std::uint32_t slot_bits = ceil_log2(rtu.ray_slots);
-    const auto add = [&](std::string name, std::uint32_t depth, std::uint32_t bits) {
-        parts.push_back(formula("queues", std::move(name), 1, queue_area(depth, bits),
-                                fmt::format("queue of {} x {} bits", depth, bits)));
+    const std::uint32_t slot_bits = ceil_log2(rtu.ray_slots), results = rtu.results_per_cycle;
+    const auto add = [&](std::string name, const QueueShape& shape) {
+        parts.push_back(formula("queues", std::move(name), 1, multi_queue_area(shape, false),
+                                fmt::format("queue of {} x {} bits", shape.depth, shape.width_bits)));
     };
-    // Data of nodes and leaves lies in arrays: only a few of many bits are read in a cycle.
-    const auto add_wide = [&](const std::string& name, std::uint32_t depth, std::uint32_t bits) {
-        add(name, depth, slot_bits);
-        parts.push_back(array("queues", name + " data", depth, bits, "bits of an entry"));
-    };
-    add("requests", 2 * rtu.fetches_per_cycle, request_bits(slot_bits));
-    add_wide("nodes", 2 * config.l1.banks, 228 * config.bvh.width);
-    add_wide("leaves", 2 * config.l1.banks, 512);
-    add_wide("stack blocks", 2 * config.l1.banks, 256);
-    add("box results", 2 * std::max(rtu.box.boxes_per_cycle, rtu.results_per_cycle), slot_bits);
-    add("pair results", 2 * std::max(rtu.pair.testers, rtu.results_per_cycle), slot_bits);
-    add("rays", 2, 512);
-    add("hits", 2 * (rtu.results_per_cycle + 1), 32 + 129);
+    add("box results", {2 * std::max(rtu.box.boxes_per_cycle, results),
+                        stack_entry_bits * config.bvh.width + 4 + slot_bits, 1, results});
+    add("pair results", {2 * std::max(rtu.pair.testers, results), 128 + 1 + slot_bits, 1, results});
+    add("hits", {16, hit_bits, results + 1, results});
+    add("rays", {2, 647, 1, 1});
 }
 
 }  // namespace
@@ -176,6 +203,26 @@ GateCounts queue_area(std::uint32_t depth, std::uint32_t width_bits) {
     area.register_gates += pointer_bits * flip_flop_reset_enabled;
     area.gates += pointer_bits * (flip_flop_reset_enabled + pointer_step);
     area.gates += width_bits * (entry_select * (depth - 1) + output_select);
+    return area;
+}
+
+GateCounts multi_queue_area(const QueueShape& shape, bool shows_next) {
+    const double bits = double(shape.depth) * shape.width_bits;
+    const double pointer_bits = 2.0 * std::max(1U, ceil_log2(shape.depth)) + ceil_log2(shape.depth + 1);
+    GateCounts area = registers(bits);
+    area.register_bits += pointer_bits;
+    area.register_gates += pointer_bits * flip_flop_reset_enabled;
+    area.gates += pointer_bits * (flip_flop_reset_enabled + pointer_step);
+    area.gates += bits * (multi_read * shape.pop * (shows_next ? 2 : 1) + multi_write * (shape.push - 1));
+    if (shows_next) area.gates += multi_bypass * shape.push * shape.pop * shape.width_bits;
+    return area;
+}
+
+GateCounts free_slots_area(std::uint32_t slots) {
+    constexpr double bit_logic = 4.9, once = 190;  // fitted to free_slots of 16 and 128
+    const double bits = double(slots) * ceil_log2(slots);
+    GateCounts area = registers(bits);
+    area.gates += bit_logic * bits + once;
     return area;
 }
 

@@ -48,11 +48,24 @@ struct AreaTotal {
 /// A queue of sim/fifo.hpp in registers, as rtl_ref/fp/stream_fifo.sv.
 [[nodiscard]] GateCounts queue_area(std::uint32_t depth, std::uint32_t width_bits);
 
+/// A queue that takes up to `push` items and gives up to `pop` a cycle.
+struct QueueShape {
+    std::uint32_t depth = 0;
+    std::uint32_t width_bits = 0;
+    std::uint32_t push = 1;
+    std::uint32_t pop = 1;
+};
+
+/// Such a queue in registers, as rtl_ref/rtu/multi_fifo.sv; with `shows_next` it also tells what it will give
+/// in the next cycle.
+[[nodiscard]] GateCounts multi_queue_area(const QueueShape& shape, bool shows_next);
+
+/// The list of free slots, as rtl_ref/rtu/free_slots.sv.
+[[nodiscard]] GateCounts free_slots_area(std::uint32_t slots);
+
 /// One RTU with its L1.
 [[nodiscard]] std::vector<AreaPart> rtu_area(const sim::Config& config);
 
-/// Bits that a ray slot holds, its stack not included.
-inline constexpr std::uint32_t ray_slot_bits = 763;
 /// Bits of an address: an image and its stacks have at most 16 GiB.
 inline constexpr std::uint32_t address_bits = 34;
 

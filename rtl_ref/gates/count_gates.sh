@@ -9,6 +9,7 @@
 #   depth            two-input gates and multiplexers between two registers, at most; mapped without restructuring
 #
 # Multipliers and adders are synthesised once and counted as often as they are used; the rest of a unit is flattened.
+# Arrays of memory cells (slot_ram, storage) have no gates.
 # usage: count_gates.sh UNIT...    UNIT is a module, or module:parameter=value:...; without any, all units of gates.csv
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -16,13 +17,17 @@ cd "$(dirname "$(readlink -f "$0")")/.."
 all_units=(fp32_mul fp32_add fp32_compare stream_fifo:Width=7:Depth=8 stream_fifo:Width=161:Depth=6
     stream_fifo:Width=64:Depth=16 near_to_far:Width=2 near_to_far:Width=3 near_to_far:Width=4 near_to_far:Width=6
     near_to_far:Width=8 slab_lane box_tester:Width=2 box_tester:Width=3 box_tester:Width=4 box_tester:Width=6
-    box_tester:Width=8 pair_reject:Mode=0 pair_reject:Mode=1 pair_reject:Mode=2 exact_side)
+    box_tester:Width=8 pair_reject:Mode=0 pair_reject:Mode=1 pair_reject:Mode=2 exact_side result_select order_issue
+    free_slots:Slots=16 free_slots:Slots=64 free_slots:Slots=128 multi_fifo:Width=46:Depth=4:Push=2:Pop=2
+    multi_fifo:Width=267:Depth=8:Push=1:Pop=2 multi_fifo:Width=60:Depth=16:Push=3:Pop=2 stack_survivors:Row=11
+    stack_survivors:Row=19 ray_step:Width=2:Row=17 ray_step:Width=4:Row=11 ray_step:Width=4:Row=19
+    ray_step:Width=6:Row=21 ray_step:Width=8:Row=23)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # A unit's modules are read as they are needed: what Yosys makes of one depends a little on everything that it has read.
 mapfile -t packages < <(ls ./*/*_pkg.sv)
-folders=(-libdir fp -libdir box -libdir pair -libdir exact)
+mapfile -t folders < <(printf -- '-libdir\n%s\n' ./*/)
 
 # synthesise MODULE [PARAMETER=VALUE]...: leaves area.txt and depth.txt in the work folder.
 synthesise() {
@@ -33,6 +38,7 @@ synthesise() {
         $settings
         hierarchy -top $top ${folders[*]}
         rename -top unit
+        setattr -mod -set blackbox 1 *slot_ram* *storage*
         setattr -mod -set keep_hierarchy 1 fp32_mul
         setattr -mod -set keep_hierarchy 1 fp32_add
         synth -flatten -top unit

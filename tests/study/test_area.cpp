@@ -64,6 +64,34 @@ TEST(AreaFormula, OfAQueueGivesTheCountedOnes) {
     expect_near(queue_area(16, 64), gate_counts("stream_fifo:Width=64:Depth=16"), 0.03);
 }
 
+TEST(AreaFormula, OfAQueueOfSeveralItemsACycleGivesTheCountedOnes) {
+    expect_near(multi_queue_area({4, 46, 2, 2}, true),
+                gate_counts("multi_fifo:Width=46:Depth=4:Push=2:Pop=2"), 0.05);
+    expect_near(multi_queue_area({8, 267, 1, 2}, true),
+                gate_counts("multi_fifo:Width=267:Depth=8:Push=1:Pop=2"), 0.05);
+    expect_near(multi_queue_area({16, 60, 3, 2}, true),
+                gate_counts("multi_fifo:Width=60:Depth=16:Push=3:Pop=2"), 0.05);
+}
+
+// The formula is made of 16 and 128 slots.
+TEST(AreaFormula, OfFreeSlotsGivesTheNumberThatItWasNotMadeFrom) {
+    const GateCounts& counted = gate_counts("free_slots:Slots=64");
+    EXPECT_NEAR(free_slots_area(64).gates, counted.gates, 0.03 * counted.gates);
+}
+
+// Parts of the scheduler are scaled from stacks of 16 entries.
+TEST(AreaFormula, OfStacksGivesTheDepthThatItWasNotMadeFrom) {
+    const sim::Config config = config_with({"rtu.stack_entries=8"});
+    for (const AreaPart& part : rtu_area(config)) {
+        const bool is_step = part.name == "ray step";
+        if (!is_step && part.name != "stack survivors") continue;
+        const GateCounts& counted =
+            gate_counts(is_step ? "ray_step:Width=4:Row=11" : "stack_survivors:Row=11");
+        EXPECT_NEAR(part.each.gates, counted.gates, 0.05 * counted.gates) << part.name;
+        EXPECT_FALSE(part.is_counted);
+    }
+}
+
 TEST(AreaModel, TakesWholeBoxTestersWhereTheLanesFit) {
     EXPECT_EQ(total(box_area(4, 4)).gates, gate_counts("box_tester:Width=4"));
     EXPECT_EQ(total(box_area(18, 6)).gates.multipliers, 3 * gate_counts("box_tester:Width=6").multipliers);
@@ -85,9 +113,10 @@ TEST(AreaModel, CountsBitsOfArraysByTheirFormulas) {
     EXPECT_EQ(bits("data"), 8192 * 8);
     // 64 lines, 16 sets: a tag of 34 - 7 - 4 bits, 4 sectors valid and dirty, 2 bits of age
     EXPECT_EQ(bits("tags"), 64 * (23 + 8 + 2));
-    EXPECT_EQ(bits("stacks"), 16 * 4 * 64);
-    EXPECT_EQ(bits("ray slots"), 16 * ray_slot_bits);
-    EXPECT_EQ(bits("free slots"), 16 * 4);
+    EXPECT_EQ(bits("stacks"), 16 * (4 + 3) * 64);
+    // the rays of box unit, pair unit and scheduler; the best hit, three times in parts; two places and 12
+    // bits
+    EXPECT_EQ(bits("ray slots"), 16 * (355 + 322 + 65 + 224 + 2 * 3 + 12));
     // 6 bits of a line's place, 4 sectors, 16 targets of a slot and its sectors
     EXPECT_EQ(bits("MSHRs"), 64 * (6 + 4 + 16 * (4 + 4)));
 }
