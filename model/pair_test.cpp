@@ -43,21 +43,18 @@ bool is_missed(float u, float v, float w, Reach reach) {
     return low < -bound && high > bound && bound < largest;
 }
 
-// The weights cannot add up to zero when the sides agree.
+// The plane is not parallel to the ray when the sides agree: the edge functions add up to direction . n.
 std::optional<Hit> intersect(const std::array<Vec3, 3>& corners, const RaySetup& ray) {
     const ExactTriangle triangle({ray.origin, ray.direction, ray.kz}, corners);
-    std::array<double, 3> weights{};
+    std::array<Bounded, 3> edge_functions{};
     std::array<Side, 3> sides{};
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-        const std::size_t opposite = (corner + 1) % 3;
-        weights[corner] = triangle.edge_function(opposite);
-        sides[corner] = triangle.side(opposite, weights[corner]);
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+        edge_functions[edge] = triangle.edge_function(edge);
+        sides[edge] = triangle.side(edge, edge_functions[edge]);
     }
     if (sides[0] != sides[1] || sides[1] != sides[2] || sides[0] == Side::Neither) return std::nullopt;
-    const auto t = float(triangle.distance());
-    if (!(t > ray.t_min)) return std::nullopt;  // the surface that a secondary ray leaves, mostly
-    const double area = weights[0] + weights[1] + weights[2];
-    return Hit{t, float(weights[1] / area), float(weights[2] / area)};
+    const auto point = triangle.point_beyond(ray.t_min, edge_functions);
+    return point ? std::optional(Hit{point->t, point->u, point->v}) : std::nullopt;
 }
 
 // In the file's order, so that a hit does not depend on how its triangle is stored.

@@ -35,7 +35,9 @@ Activity BoxUnit::issue(Cycle now) {
         return Activity::Busy;
     }
     std::uint32_t free_lanes = config_.boxes_per_cycle;
-    while (free_lanes > 0 && nodes_in->can_pop(now) && !pipeline_.is_full()) {
+    for (std::uint32_t nodes = 0;
+         nodes < config_.nodes_per_cycle && free_lanes > 0 && nodes_in->can_pop(now) && !pipeline_.is_full();
+         ++nodes) {
         const SlotToken token{nodes_in->front().tag};
         RayWalk& walk = slots_[token.slot].walk;
         const std::uint32_t boxes = walk.child_count();

@@ -12,6 +12,12 @@ enum class PairMode : std::uint8_t {
                  ///< twice, mostly a folded one, replays
 };
 
+/// What lies below the L1s.
+enum class MemoryModel : std::uint8_t {
+    Dram,  ///< the L2, which all RTUs share, and the DRAM
+    Flat,  ///< no L2: memory of one latency and one bandwidth, as an RTL testbench has
+};
+
 /// Every hardware number of the machine. Meaning, unit, range and the default's source of each field are in
 /// one table (config_keys(), sim/config_keys.cpp); the names below are its keys.
 struct Config {
@@ -34,8 +40,13 @@ struct Config {
         std::uint32_t results_per_cycle = 2;  ///< unit results that the scheduler takes a cycle
         std::uint32_t fetches_per_cycle = 2;  ///< requests that it sends to the L1 a cycle
 
+        struct Scheduler {
+            std::uint32_t latency_cycles = 3;  ///< from taking a result to what follows from it
+        } scheduler;
+
         struct Box {
             std::uint32_t boxes_per_cycle = 4;
+            std::uint32_t nodes_per_cycle = 1;
             std::uint32_t latency_cycles = 12;
         } box;
 
@@ -59,6 +70,13 @@ struct Config {
         std::uint32_t latency_cycles = 0;  ///< request seen to reply sent, for a hit
     };
     Cache l1{64 * 1024, 128, 32, 16, 4, 64, 16, 20};
+
+    struct Memory {
+        MemoryModel model = MemoryModel::Dram;
+        std::uint32_t latency_cycles = 100;  ///< of a flat memory, both ways together
+        std::uint32_t bytes_per_cycle = 32;  ///< of a flat memory
+    } memory;
+
     Cache l2{4 * 1024 * 1024, 128, 32, 16, 4, 128, 16, 100};
 
     struct Dram {

@@ -63,6 +63,7 @@ void validate(const EffectiveConfig& effective) {
     check_ranges(effective);
     const Config& config = effective.config;
     check_cache(effective, config.l1, "l1");
+    if (config.memory.model == MemoryModel::Flat) return;  // there is no L2 and no DRAM to check
     check_cache(effective, config.l2, "l2");
     require(effective, config.l1.line_bytes <= config.l2.line_bytes,
             "lines that do not shrink towards memory", {"l1.line_bytes", "l2.line_bytes"});

@@ -42,8 +42,13 @@ const ConfigKey rows[] = {
     {"rtu.fetches_per_cycle", "requests/cycle", "requests that the ray scheduler sends to its L1", 1, 64,
      Form::Any, "assumed: keeps the box unit and the pair unit fed together",
      [](Config& c) -> Field { return &c.rtu.fetches_per_cycle; }},
+    {"rtu.scheduler.latency_cycles", "cycles", "result taken to the next request, or the hit, of its ray", 0,
+     1000, Form::Any, "[rtl] stack and best hit are read, compared, written: three stages",
+     [](Config& c) -> Field { return &c.rtu.scheduler.latency_cycles; }},
     {"rtu.box.boxes_per_cycle", "boxes/cycle", "child boxes that the box unit tests", 1, 64, Form::Any,
      "[rayflex] 4 ray-box tests a clock", [](Config& c) -> Field { return &c.rtu.box.boxes_per_cycle; }},
+    {"rtu.box.nodes_per_cycle", "nodes/cycle", "nodes that the box unit begins, as far as its lanes go", 1,
+     64, Form::Any, "[rtl] a node a cycle", [](Config& c) -> Field { return &c.rtu.box.nodes_per_cycle; }},
     {"rtu.box.latency_cycles", "cycles", "issue to result of a box test", 1, 1000, Form::Any,
      "[rayflex] pipeline of 12 stages", [](Config& c) -> Field { return &c.rtu.box.latency_cycles; }},
     {"rtu.pair.mode", "", "how a pair of triangles is tested", 0, 0, Form::Any,
@@ -78,6 +83,12 @@ const ConfigKey rows[] = {
      [](Config& c) -> Field { return &c.l1.targets_per_mshr; }},
     {"l1.latency_cycles", "cycles", "request seen to reply sent, for a hit", 1, 10'000U, Form::Any,
      "[vulkan-sim] and [arches] 20", [](Config& c) -> Field { return &c.l1.latency_cycles; }},
+    {"memory.model", "", "what is below the L1s: the L2 and the DRAM, or neither but a flat memory", 0, 0,
+     Form::Any, "assumed: as in every GPU", [](Config& c) -> Field { return &c.memory.model; }},
+    {"memory.latency_cycles", "cycles", "of a flat memory, both ways together", 1, 10'000U, Form::Any,
+     "assumed: about an L2 hit", [](Config& c) -> Field { return &c.memory.latency_cycles; }},
+    {"memory.bytes_per_cycle", "bytes/cycle", "bandwidth of a flat memory", 1, 1024, Form::Any,
+     "assumed: one sector a cycle", [](Config& c) -> Field { return &c.memory.bytes_per_cycle; }},
     {"l2.size_bytes", "bytes", "capacity of the cache that all RTUs share", 1024, 268'435'456U, Form::Any,
      "[arches] 8 x 512 KiB", [](Config& c) -> Field { return &c.l2.size_bytes; }},
     {"l2.line_bytes", "bytes", "cache line", 32, 1024, Form::PowerOfTwo, "[vulkan-sim] 128",
@@ -119,6 +130,7 @@ const ConfigKey rows[] = {
 };
 
 constexpr std::array<std::string_view, 3> mode_names{"single", "dual_independent", "dual_shared"};
+constexpr std::array<std::string_view, 2> memory_model_names{"dram", "flat"};
 
 /// Insertions, deletions and substitutions between two words (Levenshtein's distance).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -170,6 +182,12 @@ std::span<const ConfigKey> config_keys() { return rows; }
 
 std::span<const std::string_view> pair_mode_names() { return mode_names; }
 
+std::span<const std::string_view> choice_names(const ConfigKey::Field& field) {
+    if (std::holds_alternative<PairMode*>(field)) return mode_names;
+    if (std::holds_alternative<MemoryModel*>(field)) return memory_model_names;
+    return {};
+}
+
 std::size_t config_key_index(std::string_view name, std::string_view place) {
     const auto row = std::ranges::find(rows, name, &ConfigKey::name);
     if (row != std::end(rows)) return std::size_t(row - std::begin(rows));
@@ -182,6 +200,8 @@ ConfigValue config_value(const Config& config, const ConfigKey& key) {
     Config copy = config;  // the table's accessors give places to write to
     const Field field = key.field(copy);
     if (const auto* number = std::get_if<std::uint32_t*>(&field)) return **number;
+    if (auto* const* model = std::get_if<MemoryModel*>(&field))
+        return memory_model_names[std::size_t(**model)];
     return mode_names[std::size_t(*std::get<PairMode*>(field))];
 }
 
@@ -191,7 +211,8 @@ std::string config_value_text(const Config& config, const ConfigKey& key) {
 
 std::string describe_range(const ConfigKey& key) {
     Config any;
-    if (std::holds_alternative<PairMode*>(key.field(any))) return quoted_list(mode_names);
+    const auto names = choice_names(key.field(any));
+    if (!names.empty()) return quoted_list(names);
     const std::string_view kind = key.form == Form::Even         ? "an even number"
                                   : key.form == Form::PowerOfTwo ? "a power of two"
                                                                  : "a number";

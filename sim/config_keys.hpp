@@ -18,7 +18,7 @@ using ConfigValue = std::variant<std::uint32_t, std::string_view>;
 struct ConfigKey {
     /// What a number must be besides lying in its range.
     enum class Form : std::uint8_t { Any, Even, PowerOfTwo };
-    using Field = std::variant<std::uint32_t*, PairMode*>;
+    using Field = std::variant<std::uint32_t*, PairMode*, MemoryModel*>;
 
     std::string_view name;     ///< dotted, as in files and options; equals the member's path in Config
     std::string_view unit;     ///< of the number; empty for a choice
@@ -49,5 +49,8 @@ struct ConfigKey {
 
 /// The names of PairMode, in the order of its enumerators.
 [[nodiscard]] std::span<const std::string_view> pair_mode_names();
+
+/// What a choice may be called, in the order of its enumerators; empty for a number.
+[[nodiscard]] std::span<const std::string_view> choice_names(const ConfigKey::Field& field);
 
 }  // namespace rtu::sim

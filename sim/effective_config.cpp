@@ -37,12 +37,13 @@ std::uint32_t checked_number(const ConfigAssignment& assignment, const ConfigKey
     return value;
 }
 
-PairMode checked_mode(const ConfigAssignment& assignment, const ConfigKey& key) {
+/// Where the choice stands among its names.
+std::size_t checked_choice(const ConfigAssignment& assignment, const ConfigKey& key,
+                           std::span<const std::string_view> names) {
     const auto* name = std::get_if<std::string>(&assignment.value);
-    const auto names = pair_mode_names();
     const auto found = name == nullptr ? names.end() : std::ranges::find(names, *name);
     if (found == names.end()) reject(assignment, key);
-    return PairMode(found - names.begin());
+    return std::size_t(found - names.begin());
 }
 
 EffectiveConfig assign_all(EffectiveConfig config, std::span<const ConfigAssignment> assignments) {
@@ -118,7 +119,9 @@ EffectiveConfig assign(EffectiveConfig base, const ConfigAssignment& assignment)
     if (auto* const* number = std::get_if<std::uint32_t*>(&field)) {
         **number = checked_number(assignment, key);
     } else {
-        *std::get<PairMode*>(field) = checked_mode(assignment, key);
+        const std::size_t choice = checked_choice(assignment, key, choice_names(field));
+        if (auto* const* model = std::get_if<MemoryModel*>(&field)) **model = MemoryModel(choice);
+        if (auto* const* mode = std::get_if<PairMode*>(&field)) **mode = PairMode(choice);
     }
     const std::string& source = assignment.source.empty() ? assignment.place : assignment.source;
     base.origins[index] = {source, assignment.place};

@@ -1,38 +1,27 @@
 #include "sim/machine.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <utility>
 
-#include "sim/dram.hpp"
 #include "sim/kernel.hpp"
 #include "sim/memory_boundary.hpp"
 #include "sim/memory_counters.hpp"
 #include "sim/ray_source.hpp"
 #include "sim/rtu.hpp"
+#include "sim/shared_memory.hpp"
 
 namespace rtu::sim {
 
 namespace {
 
-constexpr std::uint64_t page_bytes = 4096;
-
-std::uint64_t round_up(std::uint64_t value, std::uint64_t to) { return (value + to - 1) / to * to; }
-
-// Each RTU's stacks lie behind the image, a whole number of lines a slot.
-StackRegion stack_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
-    const std::uint64_t slot_bytes = round_up(
-        (model::stack_capacity(image) + spill_block_entries) * stack_entry_bytes, config.l1.line_bytes);
-    const std::uint64_t first_slot = std::uint64_t(rtu) * config.rtu.ray_slots;
-    return {round_up(image.size_bytes(), page_bytes) + first_slot * slot_bytes, slot_bytes};
-}
-
-template <class Counters, std::size_t N>
-std::vector<CounterValue> values(const std::array<CounterRow<Counters>, N>& rows, const Counters& counters) {
-    std::vector<CounterValue> result;
-    result.reserve(N);
-    for (const auto& row : rows) result.push_back({row.name, row.unit, counters.*row.member});
-    return result;
+// Each RTU's stacks lie behind those of the RTUs before it.
+model::StackRegion stack_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
+    model::StackRegion region = model::stack_region(image, config.rtu.stack_entries, config.l1.line_bytes);
+    region.base_address += std::uint64_t(rtu) * config.rtu.ray_slots * region.slot_bytes;
+    return region;
 }
 
 // All RTUs, the memory that they share, and the two ends that rays come from and go to.
@@ -44,17 +33,10 @@ class Machine {
           domain_("domain", mode, config.watchdog_cycles),
           source_("ray_source", domain_, rays, config.host.rays_per_cycle, config.rtu.count),
           sink_("hit_sink", domain_, on_hit, config.rtu.count),
-          l2_("l2", domain_, config.l2, config.rtu.count, config.rtu.count, 0),
-          dram_("dram", domain_, config.dram, config.l2.line_bytes),
-          dram_requests_("dram_requests", dram_request_depth, domain_),
-          dram_replies_("dram_replies", config.l2.mshrs, domain_) {
+          memory_(make_shared_memory(config, domain_)) {
         for (std::uint32_t i = 0; i < config.rtu.count; ++i) {
             add_rtu(i, {image, kind, stack_region(config, image, i)}, std::as_bytes(std::span(image.blocks)));
         }
-        l2_.below_out(dram_requests_);
-        l2_.fills_in(dram_replies_);
-        dram_.requests_in(dram_requests_);
-        dram_.replies_out(dram_replies_);
     }
 
     MachineResult run(const SimulationProgress& progress) {
@@ -72,18 +54,18 @@ class Machine {
     }
 
   private:
-    // An RTU, and its way to the L2 and back.
+    // An RTU, and its way to the shared memory and back.
     struct Node {
         Node(const std::string& name, ClockDomain& domain, const Config& config, std::uint32_t index,
              const RtuJob& job, std::span<const std::byte> image)
             : rtu(name.c_str(), domain, config, index, job),
               initiator((name + "_initiator").c_str()),
               target((name + "_target").c_str(), image),
-              l2_requests((name + "_l2_requests").c_str(), config.l1.mshrs, domain) {}
+              requests((name + "_requests").c_str(), request_depth(config), domain) {}
         Rtu rtu;
         BoundaryInitiator initiator;
         BoundaryTarget target;
-        Fifo<MemoryRequest> l2_requests;
+        Fifo<MemoryRequest> requests;
     };
 
     void add_rtu(std::uint32_t index, const RtuJob& job, std::span<const std::byte> image) {
@@ -93,9 +75,8 @@ class Machine {
         sink_.hits_in[index](node.rtu.hits_out);
         node.rtu.l1.below_out(node.initiator);
         node.initiator.replies_out(node.rtu.fills_in);
-        node.target.requests_out(node.l2_requests);
-        l2_.requests_in[index](node.l2_requests);
-        l2_.replies_out[index](node.target);
+        node.target.requests_out(node.requests);
+        memory_->connect(index, node.requests, node.target);
         connect(node.initiator, node.target);
     }
 
@@ -105,19 +86,18 @@ class Machine {
             const Rtu& rtu = node->rtu;
             const std::string prefix = nodes_.size() > 1 ? std::string(rtu.name()) + "." : "";
             result.units.push_back({prefix + "scheduler", rtu.scheduler.cycle_account(),
-                                    values(scheduler_counter_rows, rtu.scheduler.counters())});
-            result.units.push_back(
-                {prefix + "box", rtu.box.cycle_account(), values(box_counter_rows, rtu.box.counters())});
-            result.units.push_back(
-                {prefix + "pair", rtu.pair.cycle_account(), values(pair_counter_rows, rtu.pair.counters())});
-            result.memory.push_back(
-                {prefix + "l1", rtu.l1.cycle_account(), values(cache_counter_rows, rtu.l1.counters())});
+                                    counter_values(scheduler_counter_rows, rtu.scheduler.counters())});
+            result.units.push_back({prefix + "box", rtu.box.cycle_account(),
+                                    counter_values(box_counter_rows, rtu.box.counters())});
+            result.units.push_back({prefix + "pair", rtu.pair.cycle_account(),
+                                    counter_values(pair_counter_rows, rtu.pair.counters())});
+            result.memory.push_back({prefix + "l1", rtu.l1.cycle_account(),
+                                     counter_values(cache_counter_rows, rtu.l1.counters())});
             result.counts += {rtu.box.counters().node_visits, rtu.box.counters().box_tests,
                               rtu.pair.counters().pair_tests, rtu.pair.counters().triangle_tests};
         }
         result.units.push_back({"hit_sink", sink_.cycle_account(), {}});
-        result.memory.push_back({"l2", l2_.cycle_account(), values(cache_counter_rows, l2_.counters())});
-        result.memory.push_back({"dram", dram_.cycle_account(), values(dram_counter_rows, dram_.counters())});
+        std::ranges::move(memory_->results(), std::back_inserter(result.memory));
     }
 
     void check(const MachineResult& result) const {
@@ -128,8 +108,7 @@ class Machine {
         }
         RTU_CHECK(finished == result.ray_count && sink_.received() == finished,
                   "{} rays in, {} finished, {} out", result.ray_count, finished, sink_.received());
-        l2_.check_drained();
-        dram_.check_drained();
+        memory_->check_drained();
         for (const auto* units : {&result.units, &result.memory}) {
             for (const UnitResult& unit : *units) {
                 RTU_CHECK(unit.cycles.total() == result.cycles, "{}: {} cycles accounted for, {} simulated",
@@ -138,17 +117,17 @@ class Machine {
         }
     }
 
-    static constexpr std::size_t dram_request_depth = 8;  // several L2 misses and write-backs a cycle
+    // An L2 takes what an L1 can have outstanding; a flat memory is the last level.
+    static std::size_t request_depth(const Config& config) {
+        return config.memory.model == MemoryModel::Flat ? memory_request_depth : config.l1.mshrs;
+    }
 
     const Config& config_;
     ClockDomain domain_;
     RaySource source_;
     HitSink sink_;
     std::vector<std::unique_ptr<Node>> nodes_;
-    Cache l2_;
-    Dram dram_;
-    Fifo<MemoryRequest> dram_requests_;
-    Fifo<MemoryReply> dram_replies_;
+    std::unique_ptr<SharedMemory> memory_;
 };
 
 }  // namespace

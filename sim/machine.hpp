@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -13,6 +15,7 @@
 #include "model/traversal.hpp"
 #include "sim/clock_domain.hpp"
 #include "sim/config.hpp"
+#include "sim/counter_table.hpp"
 #include "sim/hit_sink.hpp"
 #include "sim/ray_supply.hpp"
 
@@ -24,6 +27,16 @@ struct CounterValue {
     std::string_view unit;
     std::uint64_t value = 0;
 };
+
+/// A unit's counters as its table lists them.
+template <class Counters, std::size_t N>
+[[nodiscard]] std::vector<CounterValue> counter_values(const std::array<CounterRow<Counters>, N>& rows,
+                                                       const Counters& counters) {
+    std::vector<CounterValue> result;
+    result.reserve(N);
+    for (const auto& row : rows) result.push_back({row.name, row.unit, counters.*row.member});
+    return result;
+}
 
 /// Where one unit's cycles went and what it counted. With several RTUs the names start with "rtuN.".
 struct UnitResult {
@@ -39,7 +52,7 @@ struct MachineResult {
     std::vector<std::optional<model::Hit>> hits;  ///< [ray_count], unless they went to a HitConsumer
     model::TraversalCounts counts;                ///< over all RTUs
     std::vector<UnitResult> units;                ///< ray source, each RTU's units, hit sink
-    std::vector<UnitResult> memory;               ///< each RTU's L1, the L2, the DRAM
+    std::vector<UnitResult> memory;               ///< each RTU's L1; the L2 and the DRAM, or the flat memory
 };
 
 /// Told the share of the rays that have returned, now and then.

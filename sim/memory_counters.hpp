@@ -104,4 +104,28 @@ inline constexpr std::array dram_counter_rows = std::to_array<CounterRow<DramCou
 });
 static_assert(has_row_for_every_field(dram_counter_rows));
 
+/// What a flat memory did.
+struct FlatMemoryCounters {
+    std::uint64_t reads = 0;
+    std::uint64_t writes = 0;
+    std::uint64_t replies = 0;
+    std::uint64_t read_bytes = 0;
+    std::uint64_t write_bytes = 0;
+    std::uint64_t bus_busy_cycles = 0;
+    std::uint64_t reply_stall_cycles = 0;
+    friend bool operator==(const FlatMemoryCounters&, const FlatMemoryCounters&) = default;
+};
+
+inline constexpr std::array flat_memory_counter_rows = std::to_array<CounterRow<FlatMemoryCounters>>({
+    {"reads", "requests", "reads accepted", &FlatMemoryCounters::reads},
+    {"writes", "requests", "writes accepted", &FlatMemoryCounters::writes},
+    {"replies", "replies", "replies sent", &FlatMemoryCounters::replies},
+    {"read_bytes", "bytes", "asked for by reads", &FlatMemoryCounters::read_bytes},
+    {"write_bytes", "bytes", "carried by writes", &FlatMemoryCounters::write_bytes},
+    {"bus_busy_cycles", "cycles", "data on the bus", &FlatMemoryCounters::bus_busy_cycles},
+    {"reply_stall_cycles", "cycles", "a reply waited for its full channel",
+     &FlatMemoryCounters::reply_stall_cycles},
+});
+static_assert(has_row_for_every_field(flat_memory_counter_rows));
+
 }  // namespace rtu::sim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace rtu::sim {
@@ -21,5 +22,12 @@ struct MemoryReply {
     std::uint32_t tag = 0;
     friend bool operator==(const MemoryReply&, const MemoryReply&) = default;
 };
+
+/// Entries of the channel that carries requests to the last level of memory: several misses and write-backs
+/// of a cycle. Assumed.
+inline constexpr std::size_t memory_request_depth = 8;
+/// Entries of the channel that carries a flat memory's replies to an L1; the memory keeps the others.
+/// Assumed.
+inline constexpr std::size_t flat_fill_depth = 4;
 
 }  // namespace rtu::sim

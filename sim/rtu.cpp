@@ -9,14 +9,25 @@ namespace {
 // Deep enough to take what one cycle can bring and give it away in the next, for full rate.
 std::size_t depth_for(std::uint32_t items_per_cycle) { return 2 * std::size_t(items_per_cycle); }
 
+// A place is kept for every ray that the scheduler is deciding about.
+std::size_t hits_depth(const Config::Rtu& config) {
+    return depth_for(config.results_per_cycle + 1) +
+           std::size_t(config.scheduler.latency_cycles) * config.results_per_cycle;
+}
+
+// An L2 may answer all that the L1 has outstanding; a flat memory keeps what the L1 cannot take.
+std::size_t fill_depth(const Config& config) {
+    return config.memory.model == MemoryModel::Flat ? flat_fill_depth : config.l1.mshrs;
+}
+
 }  // namespace
 
 Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config, std::uint32_t index,
          const RtuJob& job)
     : sc_core::sc_module(name),
       rays_in("rays", 2, domain),
-      hits_out("hits", depth_for(config.rtu.results_per_cycle + 1), domain),
-      fills_in("fills", config.l1.mshrs, domain),
+      hits_out("hits", hits_depth(config.rtu), domain),
+      fills_in("fills", fill_depth(config), domain),
       slots_(config.rtu.ray_slots),
       requests_("requests", depth_for(config.rtu.fetches_per_cycle), domain),
       nodes_("nodes", depth_for(config.l1.banks), domain),

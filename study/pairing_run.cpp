@@ -44,6 +44,11 @@ class Sums {
     std::span<const WorkloadReport> workloads_;
 };
 
+// A machine has a DRAM or a flat memory.
+std::uint64_t of_main_memory(const Sums& sums, std::string_view counter) {
+    return sums.of("dram", counter) + sums.of("memory", counter);
+}
+
 // Cycles of full work. With room for several nodes a cycle, a cycle with fewer counts in part.
 std::uint64_t box_cycles(const Sums& sums, const sim::Config& config) {
     const std::uint64_t nodes_per_cycle = config.rtu.box.boxes_per_cycle / config.bvh.width;
@@ -80,7 +85,8 @@ std::vector<PartUse> part_uses(std::span<const WorkloadReport> workloads, const 
     add("pair", sums.of("pair", "tester_cycles"), rtus * config.rtu.pair.testers);
     add("l1", sums.bank_accesses("l1"), rtus * config.l1.banks);
     add("l2", sums.bank_accesses("l2"), config.l2.banks);
-    add("dram", sums.of("dram", "bus_busy_cycles"), config.dram.channels);
+    add("dram", of_main_memory(sums, "bus_busy_cycles"),
+        config.memory.model == sim::MemoryModel::Flat ? 1 : config.dram.channels);
     return uses;
 }
 
@@ -97,7 +103,7 @@ PairingRun pairing_run(const PairingFacts& pairing, const BvhFacts& bvh,
             sum_of(workloads),
             sums.of("l1", "misses"),
             sums.of("l2", "misses"),
-            sums.of("dram", "read_bytes") + sums.of("dram", "write_bytes"),
+            of_main_memory(sums, "read_bytes") + of_main_memory(sums, "write_bytes"),
             part_uses(workloads, config)};
 }
 

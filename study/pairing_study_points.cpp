@@ -132,6 +132,12 @@ Points bandwidth_points(const PairingSetting& base, const PairingOptions& option
     return points;
 }
 
+// A study of what a flat memory does not have would print the same row many times.
+void require_dram(PairingStudyKind kind, const sim::Config& config) {
+    if (config.memory.model == sim::MemoryModel::Dram) return;
+    throw Error("--study {}: expected memory.model = dram, got flat", info(kind).name);
+}
+
 Points tester_points(const PairingSetting& base) {
     Points points;
     for (const sim::PairMode mode :
@@ -175,9 +181,11 @@ std::vector<StudyPoint> study_points(PairingStudyKind kind, const PairingOptions
             return size_points(base, options, "l1.size_bytes", doublings(config.l1.size_bytes, -3, 3),
                                {"KiB", 1024});
         case PairingStudyKind::L2Size:
+            require_dram(kind, config);
             return size_points(base, options, "l2.size_bytes", doublings(config.l2.size_bytes, -3, 4),
                                {"MiB", 1024 * 1024});
         case PairingStudyKind::DramBandwidth:
+            require_dram(kind, config);
             return bandwidth_points(base, options);
         case PairingStudyKind::Testers:
             return tester_points(base);

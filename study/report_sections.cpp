@@ -129,14 +129,15 @@ std::string dram_table(const SceneReport& report) {
                      {"Bandwidth\nGB/s"}});
     for (const WorkloadReport& workload : report.workloads) {
         for (const auto& [name, cycles, counters] : workload.memory) {
-            if (!has(counters, "row_hits")) continue;
+            if (!has(counters, "bus_busy_cycles")) continue;
             const std::uint64_t reads = value_of(counters, "reads"), writes = value_of(counters, "writes");
             const std::uint64_t bytes = value_of(counters, "read_bytes") + value_of(counters, "write_bytes");
             // Bytes per cycle times MHz is MB/s.
-            table.add_row({workload.name, name, grouped(reads), grouped(writes),
-                           percent(value_of(counters, "row_hits"), reads + writes), mebibytes(bytes),
-                           per(bytes, workload.cycles),
-                           fixed(mrps(bytes, workload.cycles, report.clock_mhz) / 1e3, 2)});
+            table.add_row(
+                {workload.name, name, grouped(reads), grouped(writes),
+                 has(counters, "row_hits") ? percent(value_of(counters, "row_hits"), reads + writes) : "-",
+                 mebibytes(bytes), per(bytes, workload.cycles),
+                 fixed(mrps(bytes, workload.cycles, report.clock_mhz) / 1e3, 2)});
         }
     }
     return table.text();

@@ -51,7 +51,8 @@ module free_slots #(
 
 `ifndef SYNTHESIS
   assert property (@(posedge clk_i) disable iff (!rst_ni) take_i |-> valid_o) else $error("no slot is free");
-  assert property (@(posedge clk_i) disable iff (!rst_ni) 32'(count_d) <= Slots) else $error("a slot was given back twice");
+  assert property (@(posedge clk_i) disable iff (!rst_ni) 32'(count_d) <= Slots)
+  else $error("a slot was given back twice");
 `endif
 
 endmodule

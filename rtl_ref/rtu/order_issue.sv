@@ -1,6 +1,6 @@
-// Turns what rays ask for into requests to the cache, up to two a cycle, in order. An order is a fetch of a node, a leaf
-// or a block of the stack, and before it the blocks of the stack that leave. Of two requests in a cycle one may be a
-// write. The block that the next cycle may write is read from the stacks ahead.
+// Turns what rays ask for into requests to the cache, up to two a cycle, in order. An order is a fetch of a node, a
+// leaf or a block of the stack, and before it the blocks of the stack that leave. Of two requests in a cycle one may
+// be a write. The block that the next cycle may write is read from the stacks ahead.
 module order_issue #(
   parameter int unsigned Slots       = 16,
   parameter int unsigned Row         = 19,

@@ -20,9 +20,11 @@ module ray_step #(
   input  logic [3:0]            met_i,            // children met; 0 if this is no node
   input  logic [Payload-1:0]    payload_i,        // children met, nearest first, or a block, lowest entry first
   input  logic [32*Row-1:0]     refs_i,           // of the stack
-  input  logic [Row-1:0]        survives_i,
-  input  logic [PlaceWidth-1:0] base_i,
-  input  logic [CountWidth-1:0] count_i,
+  input  logic [Row-1:0]        low_i,            // surviving entries from base_i on
+  input  logic [Row-1:0]        high_i,           // and before it: these are higher
+  input  logic [PlaceWidth-1:0] base_i,           // place of the lowest entry
+  input  logic [PlaceWidth-1:0] free_i,           // place above the highest entry
+  input  logic [CountWidth-1:0] pushed_i,         // entries with all children met but one, if there are any
   input  logic [BlockBits-1:0]  blocks_i,         // in memory
   output logic                  ends_o,
   output logic                  reloads_o,
@@ -43,25 +45,27 @@ module ray_step #(
     wrapped = in_ring[PlaceWidth-1:0];
   endfunction
 
-  // The highest surviving entry: beyond the ring's end are the higher ones.
-  logic any_survives;
-  logic [PlaceWidth-1:0] top;
-  always_comb begin
-    top = '0;
-    any_survives = 1'b0;
-    for (int unsigned i = 0; i < Row; i++) begin
-      if (survives_i[i] && PlaceWidth'(i) >= base_i) begin
-        top = PlaceWidth'(i);
-        any_survives = 1'b1;
-      end
-    end
-    for (int unsigned i = 0; i < Row; i++) begin
-      if (survives_i[i] && PlaceWidth'(i) < base_i) begin
-        top = PlaceWidth'(i);
-        any_survives = 1'b1;
-      end
-    end
-  end
+  function automatic logic [4:0] highest(input logic [Row-1:0] places);
+    logic [31:0] left;
+    left = 32'(places);
+    highest[4] = |left[31:16];
+    if (highest[4]) left[15:0] = left[31:16];
+    highest[3] = |left[15:8];
+    if (highest[3]) left[7:0] = left[15:8];
+    highest[2] = |left[7:4];
+    if (highest[2]) left[3:0] = left[7:4];
+    highest[1] = |left[3:2];
+    highest[0] = highest[1] ? left[3] : left[1];
+  endfunction
+
+  // The highest surviving entry, and how many are below it.
+  logic any_high, any_survives;
+  logic [4:0] top;
+  logic [CountWidth-1:0] below;
+  assign any_high = |high_i;
+  assign any_survives = any_high | (|low_i);
+  assign top = highest(any_high ? high_i : low_i);
+  assign below = CountWidth'(top) + (any_high ? CountWidth'(Row) - CountWidth'(base_i) : CountWidth'(0) - CountWidth'(base_i));
 
   logic has_child, goes_on;
   assign has_child = met_i != 4'd0;
@@ -70,34 +74,33 @@ module ray_step #(
   assign ends_o = ~goes_on & ~reloads_o;
   assign ref_o = has_child ? payload_i[63:32] : refs_i[32*top+:32];
 
-  // Entries left, and the blocks among them that find no place.
-  logic [CountWidth-1:0] left, leaving;
+  // Only children can be more than the stack holds: a block leaves for every block of entries begun beyond that.
+  logic [Width-2:0] leaves;
+  logic [Wide-1:0] leaving;
+  for (genvar i = 0; i < Width - 1; i++) begin : gen_leaves
+    assign leaves[i] = has_child & Wide'(pushed_i) > Wide'(entries_i) + Wide'(i) * Wide'(block_entries_i);
+  end
   always_comb begin
-    if (has_child) left = count_i + CountWidth'(met_i) - 1'b1;
-    else if (any_survives) left = CountWidth'(wrapped(Wide'(top) + Wide'(Row) - Wide'(base_i)));
-    else left = '0;
     spills_o = '0;
     leaving = '0;
     for (int unsigned i = 0; i < Width - 1; i++) begin
-      if (Wide'(left) > Wide'(entries_i) + Wide'(leaving)) begin
-        leaving = leaving + CountWidth'(block_entries_i);
-        spills_o = spills_o + 1'b1;
+      if (leaves[i]) begin
+        spills_o = SpillBits'(i + 1);
+        leaving = Wide'(i + 1) * Wide'(block_entries_i);
       end
     end
   end
-  assign count_o = left - leaving;
-  assign base_o = wrapped(Wide'(base_i) + Wide'(leaving));
+  assign count_o = has_child ? pushed_i - leaving[CountWidth-1:0] : any_survives ? below : '0;
+  assign base_o = wrapped(Wide'(base_i) + leaving);
   assign blocks_o = blocks_i + BlockBits'(spills_o);
 
   // Children but the nearest go above the highest entry, the farthest first.
-  logic [PlaceWidth-1:0] free_place;
-  assign free_place = wrapped(Wide'(base_i) + Wide'(count_i));
   for (genvar i = 0; i < Row; i++) begin : gen_write
     logic [PlaceWidth-1:0] above;
     logic [3:0] child;
     logic [63:0] child_entry;
-    assign above = wrapped(PlaceWidth'(i) >= free_place ? Wide'(i) - Wide'(free_place)
-                                                        : Wide'(i + Row) - Wide'(free_place));
+    assign above = wrapped(PlaceWidth'(i) >= free_i ? Wide'(i) - Wide'(free_i)
+                                                        : Wide'(i + Row) - Wide'(free_i));
     assign child = met_i - 4'd1 - 4'(above);
     always_comb begin
       child_entry = payload_i[63:0];

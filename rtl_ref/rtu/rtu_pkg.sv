@@ -1,5 +1,5 @@
-// What the parts of the RTU share. An entry of a stack is {NodeRef, t_near}; NodeRef as in model/memory_image.hpp. A hit
-// is {primitive id, v, u, t}.
+// What the parts of the RTU share. An entry of a stack is {NodeRef, t_near}; NodeRef as in model/memory_image.hpp. A
+// hit is {primitive id, v, u, t}.
 package rtu_pkg;
 
   // Where a result comes from, and with the same number: to whom the cache replies.

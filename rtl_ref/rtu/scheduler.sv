@@ -1,4 +1,5 @@
-// Gives rays their slots, decides what each asks memory for next, and hands finished rays back; as sim/ray_scheduler.hpp.
+// Gives rays their slots, decides what each asks memory for next, and hands finished rays back: the circuit that
+// sim/ray_scheduler.hpp times.
 //
 //   stage 1  up to two results are taken; their slots' stacks, best hits and states are addressed
 //         2  a found hit replaces the best; every entry on the stack is compared with it
@@ -168,9 +169,9 @@ module scheduler #(
   logic [Lanes-1:0] had_stack_q, had_best_q;
 
   logic [32*Row-1:0] refs_3_q[Lanes];
-  logic [Row-1:0] survives_3_q[Lanes];
-  logic [PlaceWidth-1:0] base_3_q[Lanes];
-  logic [CountWidth-1:0] count_3_q[Lanes];
+  logic [Row-1:0] low_3_q[Lanes], high_3_q[Lanes];
+  logic [PlaceWidth-1:0] base_3_q[Lanes], free_3_q[Lanes];
+  logic [CountWidth-1:0] pushed_3_q[Lanes];
   logic [BlockBits-1:0] blocks_3_q[Lanes];
   logic [Lanes-1:0] is_satisfied_3_q, has_best_3_q;
   logic [HitBits-1:0] best_3_q[Lanes];
@@ -185,7 +186,8 @@ module scheduler #(
     logic [HitBits-1:0] best_now;
     logic has_best_now, any_hit;
     logic [31:0] t_max;
-    logic [Row-1:0] survives;
+    logic [Row-1:0] low, high;
+    logic [CountWidth:0] end_place, in_ring;
 
     assign {any_hit, t_max} = ray[lane*(TagWidth+33)+TagWidth+:33];
     assign has_best_now = had_best_q[lane] | found_2_q[lane];
@@ -205,17 +207,21 @@ module scheduler #(
     end
     stack_survivors #(.Row(Row)) u_survivors (
       .t_near_i(t_near), .base_i(base), .count_i(count), .t_end_i(has_best_now ? best_now[31:0] : t_max),
-      .survives_o(survives)
+      .low_o(low), .high_o(high)
     );
+    assign end_place = (CountWidth + 1)'(base) + (CountWidth + 1)'(count);
+    assign in_ring = end_place >= (CountWidth + 1)'(Row) ? end_place - (CountWidth + 1)'(Row) : end_place;
     always_ff @(posedge clk_i) begin
       payload_3_q[lane] <= payload_2_q[lane];
       met_3_q[lane] <= met_2_q[lane];
       is_block_3_q[lane] <= is_block_2_q[lane];
       found_3_q[lane] <= found_2_q[lane];
       refs_3_q[lane] <= refs;
-      survives_3_q[lane] <= survives;
+      low_3_q[lane] <= low;
+      high_3_q[lane] <= high;
       base_3_q[lane] <= base;
-      count_3_q[lane] <= count;
+      free_3_q[lane] <= in_ring[PlaceWidth-1:0];
+      pushed_3_q[lane] <= count + CountWidth'(met_2_q[lane]) - 1'b1;
       blocks_3_q[lane] <= blocks;
       is_satisfied_3_q[lane] <= any_hit & has_best_now;
       has_best_3_q[lane] <= has_best_now;
@@ -253,9 +259,10 @@ module scheduler #(
     ray_step #(.Width(Width), .Row(Row)) u_step (
       .entries_i(CountWidth'(stack_entries_i)), .block_entries_i(block_entries), .is_block_i(is_block_3_q[lane]),
       .is_satisfied_i(is_satisfied_3_q[lane]), .met_i(met_3_q[lane]), .payload_i(payload_3_q[lane]),
-      .refs_i(refs_3_q[lane]), .survives_i(survives_3_q[lane]), .base_i(base_3_q[lane]), .count_i(count_3_q[lane]),
-      .blocks_i(blocks_3_q[lane]), .ends_o(step_ends), .reloads_o(reloads), .ref_o(node_ref), .spills_o(spills),
-      .base_o(base), .count_o(count), .blocks_o(blocks), .write_o(write), .row_o(new_row[lane*64*Row+:64*Row])
+      .refs_i(refs_3_q[lane]), .low_i(low_3_q[lane]), .high_i(high_3_q[lane]), .base_i(base_3_q[lane]),
+      .free_i(free_3_q[lane]), .pushed_i(pushed_3_q[lane]), .blocks_i(blocks_3_q[lane]), .ends_o(step_ends),
+      .reloads_o(reloads), .ref_o(node_ref), .spills_o(spills), .base_o(base), .count_o(count), .blocks_o(blocks),
+      .write_o(write), .row_o(new_row[lane*64*Row+:64*Row])
     );
     assign ends[lane] = valid_3_q[lane] & step_ends;
     assign order_valid[lane] = valid_3_q[lane] & ~step_ends;

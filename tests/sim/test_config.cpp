@@ -14,6 +14,7 @@ namespace rtu::sim {
 namespace {
 
 using test::error_of;
+using test::error_of_set;
 using test::load_text;
 using test::TemporaryFile;
 using testing::AllOf;
@@ -79,6 +80,17 @@ TEST(ConfigKeys, AcceptEveryModeByItsName) {
     EXPECT_EQ(pair_mode_names()[std::size_t(PairMode::Single)], "single");
     EXPECT_EQ(pair_mode_names()[std::size_t(PairMode::DualIndependent)], "dual_independent");
     EXPECT_EQ(pair_mode_names()[std::size_t(PairMode::DualShared)], "dual_shared");
+}
+
+TEST(ConfigKeys, AcceptEveryMemoryModelByItsName) {
+    const EffectiveConfig flat = load_config("default", {}, std::vector<std::string>{"memory.model=flat"});
+    EXPECT_EQ(flat.config.memory.model, MemoryModel::Flat);
+    EXPECT_EQ(default_config().config.memory.model, MemoryModel::Dram);
+    EXPECT_EQ(describe_config(load_text(describe_config(flat))), describe_config(flat));
+    EXPECT_THAT(error_of_set("memory.model=sram"),
+                AllOf(HasSubstr("--set memory.model=sram: "), HasSubstr("dram or flat")));
+    EXPECT_THAT(error_of_set("memory.model=1"), HasSubstr("dram or flat"));
+    EXPECT_THAT(error_of_set("memory.bytes_per_cycle=0"), HasSubstr("from 1 to 1024"));
 }
 
 TEST(Presets, AreValidAndSayWhereTheirValuesComeFrom) {

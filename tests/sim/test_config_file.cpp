@@ -120,6 +120,13 @@ TEST(Validation, NamesTheKeysOfARuleThatIsBroken) {
                 AllOf(HasSubstr(".toml:"), HasSubstr("dram.row_bytes = 256")));
 }
 
+TEST(Validation, AsksNothingOfAnL2ThatAFlatMemoryReplaces) {
+    const std::vector<std::string> wide_line{"l1.line_bytes=256"};
+    EXPECT_THAT(error_of([&] { (void)load_config("default", {}, wide_line); }), HasSubstr("l2.line_bytes"));
+    const std::vector<std::string> flat{"l1.line_bytes=256", "memory.model=flat"};
+    EXPECT_EQ(error_of([&] { (void)load_config("default", {}, flat); }), "");
+}
+
 TEST(Validation, CatchesRangesThatCodeBreaks) {
     EffectiveConfig config = default_config();
     config.config.rtu.ray_slots = 0;

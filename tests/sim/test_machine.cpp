@@ -32,6 +32,13 @@ const Variant variants[] = {
     {"dual_independent", [](Config& c) { c.rtu.pair.mode = PairMode::DualIndependent; }},
     {"three_slow_testers", [](Config& c) { c.rtu.pair.testers = 3, c.rtu.pair.ii_cycles = 5; }},
     {"stack_of_one", [](Config& c) { c.rtu.stack_entries = 1; }},
+    {"flat_memory", [](Config& c) { c.memory.model = MemoryModel::Flat; }},
+    {"tiny_with_flat_memory",
+     [](Config& c) {
+         c = test::tiny_machine();
+         c.rtu.count = 2;
+         c.memory = {MemoryModel::Flat, 30, 8};
+     }},
     {"narrow_scheduler", [](Config& c) { c.rtu.results_per_cycle = c.rtu.fetches_per_cycle = 1; }},
 };
 
@@ -165,6 +172,22 @@ TEST(MachineLatency, OfOneRayIsTheSumOfItsSteps) {
     }
 }
 
+// The first ray finds nothing in the L1: every visit waits for a flat memory once, and nothing is in its way.
+TEST(MachineLatency, OfOneColdRayAddsAFlatMemorysForEachVisit) {
+    Config config;
+    config.memory = {MemoryModel::Flat, 37, 1024};
+    const auto image = test::image_of(test::triangle_soup(64, 9, 0.3F));
+    for (const model::Ray& ray : test::rays_into_unit_cube(20, 10)) {
+        model::TraversalCounts counts;
+        (void)model::trace(image, ray, RayKind::ClosestHit, &counts);
+        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles + 3;
+        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles + 3;
+        const std::uint64_t miss = 2 + 1 + config.memory.latency_cycles;
+        EXPECT_EQ(simulate(config, image, std::vector{ray}, RayKind::ClosestHit).cycles,
+                  4 + counts.node_visits * (node_step + miss) + counts.pair_tests * (leaf_step + miss));
+    }
+}
+
 // Rays that test one node each and hit nothing: one a cycle enters, and one a cycle leaves.
 TEST(MachineThroughput, IsOneRayACycleAtItsPeak) {
     const auto image = test::image_of(test::triangle_soup(2, 11, 0.1F));
@@ -254,6 +277,27 @@ TEST(MachineMemory, FootprintDecidesWhatReachesDram) {
     const MachineResult thrashing = simulate(config, image, rays, RayKind::ClosestHit);
     EXPECT_GT(counter(thrashing.memory, "dram", "read_bytes"), 2 * image.size_bytes());
     EXPECT_GT(thrashing.cycles, cached.cycles);
+}
+
+TEST(MachineMemory, FlatTakesThePlaceOfL2AndDram) {
+    const auto image = test::image_of(test::triangle_soup(800, 18, 0.1F));
+    const auto rays = test::rays_into_unit_cube(500, 19);
+    Config config;
+    config.memory.model = MemoryModel::Flat;
+    config.l1 = {1024, 128, 32, 2, 2, 8, 16, 20};
+    const MachineResult wide = simulate(config, image, rays, RayKind::ClosestHit);
+    ASSERT_EQ(wide.memory.size(), 2U);  // the L1 and the memory
+    EXPECT_EQ(counter(wide.memory, "l1", "bytes_from_below"), counter(wide.memory, "memory", "read_bytes"));
+    config.memory.bytes_per_cycle = 2;
+    const MachineResult narrow = simulate(config, image, rays, RayKind::ClosestHit);
+    EXPECT_EQ(narrow.hits, wide.hits);
+    // Bound by its bandwidth; the last request may still be on the bus.
+    const std::uint64_t busy = counter(narrow.memory, "memory", "bus_busy_cycles");
+    EXPECT_LE(busy, narrow.cycles + config.l1.line_bytes / config.memory.bytes_per_cycle);
+    EXPECT_GE(double(busy), 0.99 * double(narrow.cycles));
+    // What a flat machine does not have cannot matter.
+    config.l2 = {}, config.dram = {};
+    EXPECT_EQ(simulate(config, image, rays, RayKind::ClosestHit).cycles, narrow.cycles);
 }
 
 }  // namespace
