@@ -9,8 +9,7 @@ namespace rtu::study {
 namespace {
 
 // Cells of nand2.lib.
-constexpr double and2 = 1.33, xnor2 = 2.00, mux2 = 2.33, flip_flop_enabled = 5.80,
-                 flip_flop_reset_enabled = 6.80;
+constexpr double mux2 = 2.33, flip_flop_enabled = 5.80, flip_flop_reset_enabled = 6.80;
 // Logic of a queue, fitted to stream_fifo: a bit of a pointer; a bit of the output for each entry but one,
 // and once.
 constexpr double pointer_step = 6, entry_select = 1.80, output_select = 0.53;
@@ -59,36 +58,40 @@ AreaPart array(std::string unit, std::string name, double copies, double bits_ea
     return {std::move(unit), std::move(name), copies, {}, bits_each, false, std::move(how)};
 }
 
-// What follows is one line of a cache; sizes in bits.
-struct CacheGeometry {
-    std::uint32_t lines, sectors, tag_bits, lru_bits;
+// Bits of what the cache of the RTL holds beside its data.
+struct CacheBits {
+    double line, mshr, reply;
 };
 
-CacheGeometry geometry(const sim::Config::Cache& cache) {
-    const std::uint32_t lines = cache.size_bytes / cache.line_bytes;
-    const std::uint32_t sectors = cache.line_bytes / cache.sector_bytes;
-    const std::uint32_t tag_bits = address_bits - ceil_log2(cache.line_bytes) - ceil_log2(lines / cache.ways);
-    return {lines, sectors, tag_bits, ceil_log2(cache.ways)};
+CacheBits cache_bits(const sim::Config& config) {
+    const sim::Config::Cache& cache = config.l1;
+    const std::uint32_t sectors = cache.line_bytes / cache.sector_bytes,
+                        slot_bits = ceil_log2(config.rtu.ray_slots);
+    const std::uint32_t line_number = address_bits - ceil_log2(cache.line_bytes), way = ceil_log2(cache.ways);
+    const std::uint32_t target = slot_bits + sectors, targets = ceil_log2(cache.targets_per_mshr) + 1;
+    const double node_bytes = 64.0 * ((28 * config.bvh.width + 4 + 63) / 64);
+    return {double(line_number + 3 * sectors + ceil_log2(cache.mshrs) + way),
+            double(line_number + way + targets + cache.targets_per_mshr * target + ceil_log2(cache.mshrs)),
+            8 * node_bytes + 7 + 3 * slot_bits};
 }
 
 void add_l1(const sim::Config& config, std::vector<AreaPart>& parts) {
     const sim::Config::Cache& cache = config.l1;
-    const auto [lines, sectors, tag_bits, lru_bits] = geometry(cache);
-    const std::uint32_t slot_bits = ceil_log2(config.rtu.ray_slots);
+    const CacheBits bits = cache_bits(config);
+    const std::uint32_t lines = cache.size_bytes / cache.line_bytes;
     parts.push_back(array("l1", "data", 1, 8.0 * cache.size_bytes, "8 size_bytes"));
-    parts.push_back(
-        array("l1", "tags", lines, tag_bits + 2 * sectors + lru_bits, "line: tag + 2 sectors + log2 ways"));
-    parts.push_back(array("l1", "MSHRs", cache.mshrs,
-                          ceil_log2(lines) + sectors + cache.targets_per_mshr * (slot_bits + sectors),
-                          "log2 lines + sectors + targets (log2 slots + sectors)"));
-    parts.push_back(formula("l1", "tag comparison", double(cache.banks) * cache.ways,
-                            logic(tag_bits * (xnor2 + and2)), "tag bits of XNOR2 and AND2"));
-    parts.push_back(formula("l1", "reply pipeline", cache.banks,
-                            registers(double(cache.latency_cycles) * (slot_bits + 2)),
-                            "latency (log2 slots + 2) register bits"));
-    parts.push_back(formula("l1", "reply routing", 3,
-                            logic((cache.banks - 1) * 8.0 * cache.line_bytes * mux2),
-                            "8 line_bytes (banks - 1) MUX2"));
+    parts.push_back(array("l1", "tags, states, ages", lines, bits.line, "bits of a line"));
+    parts.push_back(array("l1", "MSHRs", cache.mshrs, bits.mshr, "bits of an MSHR and its targets"));
+    parts.push_back(array("l1", "replies", config.rtu.ray_slots, bits.reply, "a node a slot"));
+    parts.push_back(array("l1", "requests, fills, write-backs", 1, 4 * 256 + 20 * 8.0 * cache.line_bytes,
+                          "4 sectors, 20 lines"));
+    const GateCounts& few = gate_counts("cache_control:Ways=4");
+    const GateCounts way = times(1.0 / 12, minus(gate_counts("cache_control:Ways=16"), few));
+    const double banks = cache.banks / 4.0;
+    GateCounts control = times(banks, minus(few, times(4, way)) + times(cache.ways, way));
+    control.depth = few.depth;
+    parts.push_back(formula("l1", "control", 1, control, "cache_control, linear in ways and banks"));
+    parts.push_back(scaled("l1", "data paths", 1, "cache_data", banks));
 }
 
 // Bits of the memories of a slot in rtl_ref/rtu: what box unit, pair unit and scheduler each keep of a ray.
@@ -103,6 +106,14 @@ std::uint32_t payload_bits(const sim::Config& config) {
     return stack_entry_bits * std::max(4U, config.bvh.width);
 }
 
+// Of a stack of 8 and one of 16 entries, both 4 wide.
+GateCounts survivors_area(std::uint32_t row) {
+    const GateCounts& few = gate_counts("stack_survivors:Row=11");
+    const GateCounts& many = gate_counts("stack_survivors:Row=19");
+    const double place = (many.gates - few.gates) / 8;
+    return {.gates = std::max(0.0, few.gates + place * (double(row) - 11)), .depth = many.depth};
+}
+
 // What decides for one result a cycle, and the registers between its stages.
 void add_lanes(const sim::Config& config, std::vector<AreaPart>& parts) {
     const sim::Config::Rtu& rtu = config.rtu;
@@ -111,11 +122,11 @@ void add_lanes(const sim::Config& config, std::vector<AreaPart>& parts) {
     const double share = double(row) / counted_row;
     const std::string step = fmt::format("ray_step:Width={}:Row={}", config.bvh.width, counted_row);
     parts.push_back(scaled("scheduler", "ray step", rtu.results_per_cycle, step, share));
-    parts.push_back(
-        scaled("scheduler", "stack survivors", rtu.results_per_cycle, "stack_survivors:Row=19", row / 19.0));
+    parts.push_back(formula("scheduler", "stack survivors", rtu.results_per_cycle, survivors_area(row),
+                            "stack_survivors, linear in its row"));
     const double common = payload_bits(config) + 4 + 1 + 1 + slot_bits;
     const double second = common,
-                 third = common + 33 * row + 2 * ceil_log2(row + 1) + block_bits + 2 + 128 + 32;
+                 third = common + 34 * row + 3 * ceil_log2(row + 1) + block_bits + 2 + 128 + 32;
     GateCounts stages = registers(second + third + hit_bits);
     stages += logic((2 * common + 128) * mux2);
     parts.push_back(formula("scheduler", "stages", rtu.results_per_cycle, stages,

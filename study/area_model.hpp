@@ -66,8 +66,8 @@ struct QueueShape {
 /// One RTU with its L1.
 [[nodiscard]] std::vector<AreaPart> rtu_area(const sim::Config& config);
 
-/// Bits of an address: an image and its stacks have at most 16 GiB.
-inline constexpr std::uint32_t address_bits = 34;
+/// Bits of an address in the RTU.
+inline constexpr std::uint32_t address_bits = 32;
 
 /// Picoseconds that a clock leaves for each gate of a path that deep, with its share of wires and registers;
 /// 0 for a depth of 0.

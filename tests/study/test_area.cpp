@@ -79,14 +79,14 @@ TEST(AreaFormula, OfFreeSlotsGivesTheNumberThatItWasNotMadeFrom) {
     EXPECT_NEAR(free_slots_area(64).gates, counted.gates, 0.03 * counted.gates);
 }
 
-// Parts of the scheduler are scaled from stacks of 16 entries.
+// Parts of the scheduler are made of stacks of 16 entries, the survivors of 8 too.
 TEST(AreaFormula, OfStacksGivesTheDepthThatItWasNotMadeFrom) {
-    const sim::Config config = config_with({"rtu.stack_entries=8"});
+    const sim::Config config = config_with({"rtu.stack_entries=12"});
     for (const AreaPart& part : rtu_area(config)) {
         const bool is_step = part.name == "ray step";
         if (!is_step && part.name != "stack survivors") continue;
         const GateCounts& counted =
-            gate_counts(is_step ? "ray_step:Width=4:Row=11" : "stack_survivors:Row=11");
+            gate_counts(is_step ? "ray_step:Width=4:Row=15" : "stack_survivors:Row=15");
         EXPECT_NEAR(part.each.gates, counted.gates, 0.05 * counted.gates) << part.name;
         EXPECT_FALSE(part.is_counted);
     }
@@ -111,14 +111,17 @@ TEST(AreaModel, CountsBitsOfArraysByTheirFormulas) {
         return -1.0;
     };
     EXPECT_EQ(bits("data"), 8192 * 8);
-    // 64 lines, 16 sets: a tag of 34 - 7 - 4 bits, 4 sectors valid and dirty, 2 bits of age
-    EXPECT_EQ(bits("tags"), 64 * (23 + 8 + 2));
+    // 64 lines: a number of 32 - 7 bits; 4 sectors valid, dirty, on their way; one of 64 MSHRs, one of 4 ages
+    EXPECT_EQ(bits("tags, states, ages"), 64 * (25 + 12 + 6 + 2));
     EXPECT_EQ(bits("stacks"), 16 * (4 + 3) * 64);
     // the rays of box unit, pair unit and scheduler; the best hit, three times in parts; two places and 12
     // bits
     EXPECT_EQ(bits("ray slots"), 16 * (355 + 322 + 65 + 224 + 2 * 3 + 12));
-    // 6 bits of a line's place, 4 sectors, 16 targets of a slot and its sectors
-    EXPECT_EQ(bits("MSHRs"), 64 * (6 + 4 + 16 * (4 + 4)));
+    // a line and its way; 16 targets of a slot and its sectors, and how many there are; a place in the free
+    // list
+    EXPECT_EQ(bits("MSHRs"), 64 * (25 + 2 + 5 + 16 * (4 + 4) + 6));
+    // a node of 128 bytes; 7 bits of its parts; a place in each of three queues
+    EXPECT_EQ(bits("replies"), 16 * (1024 + 7 + 3 * 4));
 }
 
 TEST(AreaModel, GrowsWithEveryResource) {
