@@ -16,7 +16,8 @@ module reply_queue #(
   output logic                          is_stalled_o,  // one could go over but for the channel
   output logic                          valid_o,
   input  logic                          ready_i,
-  output logic [$clog2(Tags)-1:0]       tag_o
+  output logic [$clog2(Tags)-1:0]       tag_o,
+  output logic [$clog2(Tags)-1:0]       next_tag_o     // tag_o of the next cycle, if it is valid then
 );
 
   localparam int unsigned TagBits = $clog2(Tags);
@@ -55,8 +56,9 @@ module reply_queue #(
       pushes = pushes + {3'd0, push_i[i]};
     end
   end
-  storage #(.Width(TagBits), .Entries(Tags), .Reads(1), .Writes(Lanes)) u_ring (
-    .clk_i, .read_index_i(head_q), .read_o(tag_o), .write_i(push_i), .write_index_i(place), .data_i(tag_i)
+  storage #(.Width(TagBits), .Entries(Tags), .Reads(2), .Writes(Lanes)) u_ring (
+    .clk_i, .read_index_i({head_q + TagBits'(pop), head_q}), .read_o({next_tag_o, tag_o}), .write_i(push_i),
+    .write_index_i(place), .data_i(tag_i)
   );
 
   assign valid_o = in_channel_q != 4'd0;

@@ -133,9 +133,8 @@ class RtlRun {
     void cycle() {
         offer_ray();
         memory_.offer(*unit_);
+        memory_.finish(*unit_);  // what it looks at depends on registers only
         unit_->hit_ready_i = willing_() ? 3 : willing_() ? 1 : 0;
-        settle();
-        memory_.finish(*unit_);
         settle();
         count();
         take_hits();
