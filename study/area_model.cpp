@@ -17,6 +17,7 @@ constexpr double pointer_step = 6, entry_select = 1.80, output_select = 0.53;
 // the cycle before it is there.
 constexpr double multi_read = 2.00, multi_write = 2.70, multi_bypass = 1.60;
 constexpr std::uint32_t stack_entry_bits = 64;
+constexpr double counted_hit_units = 8;      // of the pair testers of gates.csv
 constexpr std::uint32_t counted_stack = 16;  // entries of the stacks of gates.csv
 
 std::uint32_t ceil_log2(std::uint64_t count) {
@@ -202,9 +203,19 @@ std::vector<AreaPart> box_area(std::uint32_t lanes, std::uint32_t width) {
 }
 
 std::vector<AreaPart> pair_area(const sim::Config::Rtu::Pair& pair) {
-    return {counted("pair", "first pass", pair.testers,
-                    fmt::format("pair_reject:Mode={}", std::uint32_t(pair.mode))),
-            counted("pair", "exact sides", pair.testers, "exact_side")};
+    const auto mode = std::uint32_t(pair.mode);
+    const std::string first_pass = fmt::format("pair_reject:Mode={}", mode);
+    std::vector<AreaPart> parts{counted("pair", "first pass", pair.testers, first_pass)};
+    if (pair.hit_units == 0) return parts;
+    const GateCounts whole = gate_counts(fmt::format("pair_tester:Mode={}", mode));
+    const GateCounts control =
+        minus(minus(whole, gate_counts(first_pass)), times(counted_hit_units, gate_counts("hit_unit")));
+    parts.push_back(counted("pair", "hit units", double(pair.testers) * pair.hit_units, "hit_unit"));
+    parts.push_back(formula("pair", "queues and choice", pair.testers,
+                            times(pair.hit_units / counted_hit_units, control),
+                            "pair_tester - first pass - 8 hit_unit, a hit unit"));
+    parts.push_back(array("pair", "pairs under way", pair.testers, 745.0 * pair.entries, "745 entries"));
+    return parts;
 }
 
 GateCounts queue_area(std::uint32_t depth, std::uint32_t width_bits) {

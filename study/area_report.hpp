@@ -49,7 +49,9 @@ struct AreaRow {
     std::uint64_t triangle_tests = 0;
     std::uint64_t exact_tests = 0;
     std::uint64_t replays = 0;
-    std::uint64_t tester_cycles = 0;  ///< first passes, and what of the second is within their pipeline
+    std::uint64_t survivors = 0;        ///< pairs that hit units were given
+    std::uint64_t tester_cycles = 0;    ///< that testers were held
+    std::uint64_t hit_unit_cycles = 0;  ///< that hit units were held
     double mrps = 0;
     double mrps_per_mgate = 0;  ///< of the whole machine
     /// What the pair unit alone would let through: rays over the cycles that its most used part is held.

@@ -34,7 +34,9 @@ std::uint64_t pair_counter(const sim::MachineResult& result, std::string_view na
 
 // Cycles that the most used part of the pair units must at least be held, if all work were spread evenly.
 double held_cycles(const AreaRow& row, const sim::Config& config) {
-    return double(row.tester_cycles) / (config.rtu.pair.testers * config.rtu.count);
+    const double testers = double(config.rtu.pair.testers) * config.rtu.count;
+    const double hit_units = testers * std::max(1U, config.rtu.pair.hit_units);
+    return std::max(double(row.tester_cycles) / testers, double(row.hit_unit_cycles) / hit_units);
 }
 
 AreaRow row_of(const sim::MachineResult& result, const sim::Config& config, const ModeArea& area) {
@@ -46,7 +48,9 @@ AreaRow row_of(const sim::MachineResult& result, const sim::Config& config, cons
     row.triangle_tests = result.counts.triangle_tests;
     row.exact_tests = pair_counter(result, "exact_tests");
     row.replays = pair_counter(result, "replays");
+    row.survivors = pair_counter(result, "survivors");
     row.tester_cycles = pair_counter(result, "tester_cycles");
+    row.hit_unit_cycles = pair_counter(result, "hit_unit_cycles");
     row.mrps = mrps(row.rays, row.cycles, config.clock_mhz);
     row.mrps_per_mgate = row.mrps / (area.machine_gates / 1e6);
     const double held = held_cycles(row, config);

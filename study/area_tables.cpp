@@ -159,6 +159,7 @@ StudyTable row_table(const AreaReport& report) {
                     {"Workload", left},
                     {"Pairs\nper ray"},
                     {"Replays\n% of pairs"},
+                    {"Survivors\n% of pairs"},
                     {"MRPS\nsingle"},
                     {"MRPS\nindependent"},
                     {"MRPS\nshared"},
@@ -177,10 +178,11 @@ StudyTable row_table(const AreaReport& report) {
         const AreaRow& dual = in_mode(report, row, PairMode::DualIndependent);
         if (!last.empty() && row.scene != last) table.rows.emplace_back();
         table.rows.push_back({row.scene == last ? "" : row.scene, row.workload, per(row.pair_tests, row.rays),
-                              percent(row.replays, row.pair_tests), fixed(single.mrps, 1),
-                              fixed(dual.mrps, 1), fixed(row.mrps, 1), change(dual.mrps, row.mrps),
-                              fixed(single.mrps_per_mgate, 2), fixed(dual.mrps_per_mgate, 2),
-                              fixed(row.mrps_per_mgate, 2), change(dual.mrps_per_mgate, row.mrps_per_mgate),
+                              percent(row.replays, row.pair_tests), percent(row.survivors, row.pair_tests),
+                              fixed(single.mrps, 1), fixed(dual.mrps, 1), fixed(row.mrps, 1),
+                              change(dual.mrps, row.mrps), fixed(single.mrps_per_mgate, 2),
+                              fixed(dual.mrps_per_mgate, 2), fixed(row.mrps_per_mgate, 2),
+                              change(dual.mrps_per_mgate, row.mrps_per_mgate),
                               change(dual.pair_limit_mrps, row.pair_limit_mrps),
                               change(dual.pair_limit_mrps_per_mgate, row.pair_limit_mrps_per_mgate)});
         last = row.scene;
