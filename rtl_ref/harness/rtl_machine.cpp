@@ -1,8 +1,10 @@
 #include "rtl_ref/harness/rtl_machine.hpp"
 
-#include <Vrtu_2_0.h>
+#include <Vrtu_2_2.h>
+#include <Vrtu_4_0.h>
+#include <Vrtu_4_1.h>
 #include <Vrtu_4_2.h>
-#include <Vrtu_8_1.h>
+#include <Vrtu_8_2.h>
 
 #include <algorithm>
 #include <bit>
@@ -32,8 +34,10 @@ RtlResult run_on(const model::MemoryImage& image, std::span<const model::Ray> ra
 
 // As listed in rtl_ref/CMakeLists.txt.
 constexpr std::array builds{Build{4, TesterMode::DualShared, run_on<Vrtu_4_2>},
-                            Build{2, TesterMode::Single, run_on<Vrtu_2_0>},
-                            Build{8, TesterMode::DualIndependent, run_on<Vrtu_8_1>}};
+                            Build{4, TesterMode::Single, run_on<Vrtu_4_0>},
+                            Build{4, TesterMode::DualIndependent, run_on<Vrtu_4_1>},
+                            Build{2, TesterMode::DualShared, run_on<Vrtu_2_2>},
+                            Build{8, TesterMode::DualShared, run_on<Vrtu_8_2>}};
 
 const Build* find_build(const RtlConfig& config) {
     if (config.hit_units != built_hit_units) return nullptr;
