@@ -54,8 +54,13 @@ struct Config {
             PairMode mode = PairMode::DualShared;
             std::uint32_t testers = 1;
             std::uint32_t ii_cycles = 1;
-            std::uint32_t latency_cycles = 22;
+            std::uint32_t latency_cycles = 33;
             std::uint32_t replay_cycles = 1;
+            std::uint32_t hit_units = 8;  ///< behind the first pass of a tester; 0: all is in its pipeline
+            std::uint32_t hit_cycles = 92;
+            std::uint32_t reject_cycles = 56;
+            std::uint32_t side_cycles = 111;
+            std::uint32_t entries = 40;
         } pair;
     } rtu;
 

@@ -65,6 +65,7 @@ void Rtu::check_drained() const {
               s.node_fetches, box.counters().node_visits);
     RTU_CHECK(s.leaf_fetches == pair.counters().leaf_visits, "{}: {} leaves fetched, {} tested", name(),
               s.leaf_fetches, pair.counters().leaf_visits);
+    pair.check_drained();
     l1.check_drained();
     RTU_CHECK(rays_in.size() + hits_out.size() + requests_.size() + fills_in.size() + nodes_.size() +
                       leaves_.size() + stack_blocks_.size() + box_results_.size() + pair_results_.size() ==

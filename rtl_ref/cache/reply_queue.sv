@@ -56,9 +56,13 @@ module reply_queue #(
       pushes = pushes + {3'd0, push_i[i]};
     end
   end
-  storage #(.Width(TagBits), .Entries(Tags), .Reads(2), .Writes(Lanes)) u_ring (
-    .clk_i, .read_index_i({head_q + TagBits'(pop), head_q}), .read_o({next_tag_o, tag_o}), .write_i(push_i),
-    .write_index_i(place), .data_i(tag_i)
+  storage #(.Width(TagBits), .Entries(Tags), .Reads(1), .Writes(Lanes)) u_ring (
+    .clk_i, .read_index_i(head_q), .read_o(tag_o), .write_i(push_i), .write_index_i(place), .data_i(tag_i)
+  );
+  // A copy, as tag_o must not seem to depend on ready_i.
+  storage #(.Width(TagBits), .Entries(Tags), .Reads(1), .Writes(Lanes)) u_next_ring (
+    .clk_i, .read_index_i(head_q + TagBits'(pop)), .read_o(next_tag_o), .write_i(push_i), .write_index_i(place),
+    .data_i(tag_i)
   );
 
   assign valid_o = in_channel_q != 4'd0;

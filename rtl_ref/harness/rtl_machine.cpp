@@ -33,11 +33,10 @@ RtlResult run_on(const model::MemoryImage& image, std::span<const model::Ray> ra
 }
 
 // As listed in rtl_ref/CMakeLists.txt.
-constexpr std::array builds{Build{4, TesterMode::DualShared, run_on<Vrtu_4_2>},
-                            Build{4, TesterMode::Single, run_on<Vrtu_4_0>},
-                            Build{4, TesterMode::DualIndependent, run_on<Vrtu_4_1>},
-                            Build{2, TesterMode::DualShared, run_on<Vrtu_2_2>},
-                            Build{8, TesterMode::DualShared, run_on<Vrtu_8_2>}};
+constexpr std::array builds{
+    Build{4, TesterMode::DualShared, run_on<Vrtu_4_2>}, Build{4, TesterMode::Single, run_on<Vrtu_4_0>},
+    Build{4, TesterMode::DualIndependent, run_on<Vrtu_4_1>},
+    Build{2, TesterMode::DualShared, run_on<Vrtu_2_2>}, Build{8, TesterMode::DualShared, run_on<Vrtu_8_2>}};
 
 const Build* find_build(const RtlConfig& config) {
     if (config.hit_units != built_hit_units) return nullptr;
@@ -77,12 +76,16 @@ void check(const model::MemoryImage& image, const RtlConfig& config) {
         throw Error("rtl: expected a tree of width {}, got {}", config.width, image.width);
     }
     if (image.pair_count != image.leaf_count) {
-        throw Error("rtl: expected leaves of one pair, got {} pairs in {} leaves", image.pair_count, image.leaf_count);
+        throw Error("rtl: expected leaves of one pair, got {} pairs in {} leaves", image.pair_count,
+                    image.leaf_count);
     }
-    const model::StackRegion stacks = model::stack_region(image, config.stack_entries, FlatMemory::line_bytes);
-    if (stacks.slot_bytes > 0xffffU || stacks.base_address + stacks.slot_bytes * config.slots > 0xffff'ffffU) {
-        throw Error("rtl: expected an image with its stacks below 4 GiB, and 64 KiB a stack; got {} bytes and {}",
-                    image.size_bytes(), stacks.slot_bytes);
+    const model::StackRegion stacks =
+        model::stack_region(image, config.stack_entries, FlatMemory::line_bytes);
+    if (stacks.slot_bytes > 0xffffU ||
+        stacks.base_address + stacks.slot_bytes * config.slots > 0xffff'ffffU) {
+        throw Error(
+            "rtl: expected an image with its stacks below 4 GiB, and 64 KiB a stack; got {} bytes and {}",
+            image.size_bytes(), stacks.slot_bytes);
     }
 }
 

@@ -15,8 +15,9 @@ namespace rtu::rtl {
 /// What a pair tester shares; as rtu.pair.mode of the simulator, in its order.
 enum class TesterMode : std::uint8_t { Single, DualIndependent, DualShared };
 
-/// A configuration of the RTU in SystemVerilog and of the memory behind it. Width, mode and hit units are fixed when
-/// it is Verilated: see has_build(). All else is chosen when it runs, up to the maxima of rtl_ref/rtu/rtu.sv.
+/// A configuration of the RTU in SystemVerilog and of the memory behind it. Width, mode and hit units are
+/// fixed when it is Verilated: see has_build(). All else is chosen when it runs, up to the maxima of
+/// rtl_ref/rtu/rtu.sv.
 struct RtlConfig {
     std::uint32_t width = 4;  ///< children of a node, and box tests a cycle
     TesterMode mode = TesterMode::DualShared;
@@ -26,10 +27,10 @@ struct RtlConfig {
 
     /// The L1: lines of 128 bytes in sectors of 32.
     struct Cache {
-        std::uint32_t sets = 32;   ///< a power of two, `banks` to 32
-        std::uint32_t ways = 16;   ///< 1 to 16
-        std::uint32_t banks = 4;   ///< 1, 2 or 4
-        std::uint32_t mshrs = 64;  ///< 1 to 64
+        std::uint32_t sets = 32;              ///< a power of two, `banks` to 32
+        std::uint32_t ways = 16;              ///< 1 to 16
+        std::uint32_t banks = 4;              ///< 1, 2 or 4
+        std::uint32_t mshrs = 64;             ///< 1 to 64
         std::uint32_t targets_per_mshr = 16;  ///< 1 to 16
         std::uint32_t latency_cycles = 20;    ///< 1 to 32
     } cache;
@@ -63,17 +64,18 @@ struct Waves {
 /// Two sides of the RTU that are unwilling at random, and what its registers hold before reset: for tests.
 struct Disturbance {
     std::uint64_t seed = 0;
-    bool hesitates = false;  ///< hits and memory requests are not always taken, rays and fills not always offered
+    bool hesitates =
+        false;  ///< hits and memory requests are not always taken, rays and fills not always offered
 };
 
 /// Whether an RTU of this width, mode and number of hit units was Verilated.
 [[nodiscard]] bool has_build(const RtlConfig& config);
 
-/// Runs rays through the RTU. The image has one pair a leaf. Throws rtu::Error when the RTU cannot take the image or
-/// the configuration, or waves were asked for and it was built without; std::logic_error when it comes to no end or
-/// breaks a rule.
-[[nodiscard]] RtlResult run_rtl(const model::MemoryImage& image, std::span<const model::Ray> rays, model::RayKind kind,
-                                const RtlConfig& config, const Waves* waves = nullptr,
+/// Runs rays through the RTU. The image has one pair a leaf. Throws rtu::Error when the RTU cannot take the
+/// image or the configuration, or waves were asked for and it was built without; std::logic_error when it
+/// comes to no end or breaks a rule.
+[[nodiscard]] RtlResult run_rtl(const model::MemoryImage& image, std::span<const model::Ray> rays,
+                                model::RayKind kind, const RtlConfig& config, const Waves* waves = nullptr,
                                 const Disturbance* disturbance = nullptr);
 
 }  // namespace rtu::rtl

@@ -67,8 +67,9 @@ class RtlRun {
         reset();
         while (returned_ < rays_.size()) {
             cycle();
-            RTU_CHECK(now_ - last_progress_ < patience_cycles, "rtu: no progress for {} cycles, {} of {} hits",
-                      patience_cycles, returned_, rays_.size());
+            RTU_CHECK(now_ - last_progress_ < patience_cycles,
+                      "rtu: no progress for {} cycles, {} of {} hits", patience_cycles, returned_,
+                      rays_.size());
         }
         if (!rays_.empty()) result_.cycles = now_ - first_accepted_;
         unit_->final();
@@ -132,8 +133,8 @@ class RtlRun {
 
     void cycle() {
         offer_ray();
-        memory_.offer(*unit_);
-        memory_.finish(*unit_);  // what it looks at depends on registers only
+        memory_.offer(*unit_, willing_());
+        memory_.finish(*unit_, willing_());  // what it looks at depends on registers only
         unit_->hit_ready_i = willing_() ? 3 : willing_() ? 1 : 0;
         settle();
         count();
@@ -168,7 +169,8 @@ class RtlRun {
         set_vector(unit.ray_origin_near_i, setup.origin_near);
         set_vector(unit.ray_origin_far_i, setup.origin_far);
         set_vector(unit.ray_inv_direction_i, setup.inv_direction);
-        unit.ray_entry_side_i = std::uint8_t(setup.entry_side[0] | setup.entry_side[1] << 1 | setup.entry_side[2] << 2);
+        unit.ray_entry_side_i =
+            std::uint8_t(setup.entry_side[0] | setup.entry_side[1] << 1 | setup.entry_side[2] << 2);
         unit.ray_kz_i = setup.kz;
         unit.ray_shear_x_i = std::bit_cast<std::uint32_t>(setup.shear_x);
         unit.ray_shear_y_i = std::bit_cast<std::uint32_t>(setup.shear_y);
@@ -178,12 +180,12 @@ class RtlRun {
 
     void take_hits() {
         for (std::uint32_t i = 0; i < 2; ++i) {
-            if ((unit_->hit_valid_o & unit_->hit_ready_i) >> i == 0 || (unit_->hit_valid_o & unit_->hit_ready_i & 1) == 0) break;
+            if ((unit_->hit_valid_o & unit_->hit_ready_i) >> i == 0) break;
             std::array<std::uint32_t, 2> tags;
             static_assert(sizeof unit_->hit_tag_o == sizeof tags);
             std::memcpy(&tags, &unit_->hit_tag_o, sizeof tags);
-            RTU_CHECK(tags[i] < rays_.size() && !is_returned_[tags[i]], "rtu: a hit of ray {}, which is not under way",
-                      tags[i]);
+            RTU_CHECK(tags[i] < rays_.size() && !is_returned_[tags[i]],
+                      "rtu: a hit of ray {}, which is not under way", tags[i]);
             is_returned_[tags[i]] = true;
             if ((unit_->hit_found_o >> i & 1) != 0) {
                 std::array<model::Hit, 2> hits;  // as in the port: t, u, v, primitive id

@@ -13,9 +13,13 @@ namespace rtu::rtl {
 
 /// What a Verilated `Top` can record itself in: nothing, unless it was Verilated with tracing.
 template <class Top>
-concept TracesVcd = requires(Top& top, VerilatedVcdC* file) { top.trace(file, 99); };
+concept TracesVcd = requires(Top& top, VerilatedVcdC* file) {
+    top.trace(file, 99);
+};
 template <class Top>
-concept TracesFst = requires(Top& top, VerilatedFstC* file) { top.trace(file, 99); };
+concept TracesFst = requires(Top& top, VerilatedFstC* file) {
+    top.trace(file, 99);
+};
 
 /// The signals of a Verilated unit, cycle by cycle, in a file; two time steps a cycle.
 template <class Top>
@@ -32,9 +36,10 @@ class WaveFile {
         }
         if (!vcd_ && !fst_) {
             throw Error("{}: expected {}", waves.file.string(),
-                        TracesVcd<Top>   ? "a file name that ends in .vcd: this build writes no other waves"
-                        : TracesFst<Top> ? "a file name that ends in .fst: this build writes no other waves"
-                                         : "no waves: the RTL was built without them (cmake -DRTUSIM_RTL_WAVES=fst)");
+                        TracesVcd<Top> ? "a file name that ends in .vcd: this build writes no other waves"
+                        : TracesFst<Top>
+                            ? "a file name that ends in .fst: this build writes no other waves"
+                            : "no waves: the RTL was built without them (cmake -DRTUSIM_RTL_WAVES=fst)");
         }
     }
     ~WaveFile() {

@@ -36,7 +36,6 @@ module ray_step #(
   output logic [Row-1:0]        write_o,          // places of the stack, and what enters them
   output logic [64*Row-1:0]     row_o
 );
-  /* verilator no_inline_module */
 
   localparam int unsigned Wide = CountWidth + 2;
 

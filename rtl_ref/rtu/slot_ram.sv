@@ -14,7 +14,6 @@ module slot_ram #(
   input  logic [Writes*SlotWidth-1:0] write_slot_i,
   input  logic [Writes*Width-1:0]     write_data_i
 );
-  /* verilator no_inline_module */
 
   logic [Width-1:0] word_q[Slots];
 

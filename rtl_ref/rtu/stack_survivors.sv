@@ -13,7 +13,6 @@ module stack_survivors #(
   output logic [Row-1:0]        low_o,     // surviving entries from base_i on
   output logic [Row-1:0]        high_o     // surviving entries before it
 );
-  /* verilator no_inline_module */
 
   for (genvar i = 0; i < Row; i++) begin : gen_entry
     logic is_low, survives;

@@ -71,15 +71,14 @@ TEST(RoundedQuotient, TellsATieFromWhatIsNextToIt) {
     Random random(52);
     int uncertain = 0, count = 0;
     for (int i = 0; i < 20'000; ++i) {
-        const double middle = any_middle(random);
-        const double factor = std::ldexp(double(1 + random.below(1U << 20U)), int(random.below(80)) - 40);
+        const double middle = any_middle(random), factor = any_double(random, 40);
         for (const int off : {-1, 0, 1}) {
             Sum above, below;
-            const double sign = random.below(2) == 0 ? 1 : -1;
-            below.add(sign * factor);
-            below.add(sign * factor * 0x1p-60);
-            above.add(sign * middle * factor);
-            above.add(sign * middle * factor * 0x1p-60);
+            for (const double part : {factor, std::ldexp(any_double(random, 1), -90) * factor}) {
+                below.add(part);
+                above.add(part * middle);
+                above.add(std::fma(part, middle, -part * middle));
+            }
             above.add(off * std::ldexp(middle * factor, -65 - int(random.below(100))));
             uncertain += is_certain(above, below) ? 0 : 1;
             ++count;

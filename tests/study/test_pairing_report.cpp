@@ -100,6 +100,7 @@ TEST(PairingRun, UsesAreWorkOverWhatThePartsCanDo) {
     EXPECT_DOUBLE_EQ(use("scheduler"), 100.0 * 80 / (400 * 2 * config.rtu.fetches_per_cycle));
     EXPECT_DOUBLE_EQ(use("box"), 100.0 * 280 / (400 * 2));  // one node a cycle: the cycles that issue
     EXPECT_DOUBLE_EQ(use("pair"), 100.0 * 120 / (400 * 2 * 3));
+    EXPECT_DOUBLE_EQ(use("hit"), 100.0 * 600 / (400 * 2 * 3 * config.rtu.pair.hit_units));
     EXPECT_DOUBLE_EQ(use("l1"), 100.0 * 200 / (400 * 2 * config.l1.banks));
     EXPECT_DOUBLE_EQ(use("l2"), 100.0 * 80 / (400 * config.l2.banks));
     EXPECT_DOUBLE_EQ(use("dram"), 100.0 * 400 / (400 * config.dram.channels));
