@@ -46,7 +46,7 @@ struct Config {
 
         struct Box {
             std::uint32_t boxes_per_cycle = 4;
-            std::uint32_t nodes_per_cycle = 1;
+            std::uint32_t packs_nodes = 0;  ///< 1: idle lanes of a node with few children take the next node
             std::uint32_t latency_cycles = 12;
         } box;
 

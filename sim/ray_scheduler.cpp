@@ -153,7 +153,10 @@ MemoryRequest RayScheduler::stack_request(std::uint32_t slot, std::size_t first_
 
 bool RayScheduler::issue(Cycle now) {
     std::uint32_t sent = 0;
+    bool has_written = false;  // stack blocks leave one a cycle
     while (sent < config_.fetches_per_cycle && !queued_.empty() && requests_out->can_push(now)) {
+        if (queued_.front().is_write && has_written) break;
+        has_written |= queued_.front().is_write;
         requests_out->push(now, queued_.front());
         queued_.pop_front();
         ++sent;

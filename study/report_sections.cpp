@@ -122,7 +122,16 @@ std::string cache_table(const SceneReport& report) {
     return table.text();
 }
 
-std::string dram_table(const SceneReport& report) {
+std::string_view main_memory_title(const SceneReport& report) {
+    for (const WorkloadReport& workload : report.workloads) {
+        for (const auto& [name, cycles, counters] : workload.memory) {
+            if (has(counters, "row_hits")) return "DRAM";
+        }
+    }
+    return "Memory";
+}
+
+std::string main_memory_table(const SceneReport& report) {
     TextTable table({{"Workload", left},
                      {"Memory", left},
                      {"Reads"},
@@ -133,7 +142,7 @@ std::string dram_table(const SceneReport& report) {
                      {"Bandwidth\nGB/s"}});
     for (const WorkloadReport& workload : report.workloads) {
         for (const auto& [name, cycles, counters] : workload.memory) {
-            if (!has(counters, "bus_busy_cycles")) continue;
+            if (!has(counters, "read_bytes")) continue;
             const std::uint64_t reads = value_of(counters, "reads"), writes = value_of(counters, "writes");
             const std::uint64_t bytes = value_of(counters, "read_bytes") + value_of(counters, "write_bytes");
             // Bytes per cycle times MHz is MB/s.

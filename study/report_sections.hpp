@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "study/run_report.hpp"
 
@@ -17,7 +18,9 @@ namespace rtu::study {
 [[nodiscard]] std::string event_table(const SceneReport& report);
 /// Hit rates and bytes of each cache: levels that count `line_reads`.
 [[nodiscard]] std::string cache_table(const SceneReport& report);
-/// Row hits and bandwidth of each DRAM: levels that count `row_hits`.
-[[nodiscard]] std::string dram_table(const SceneReport& report);
+/// What the last level of memory is called: DRAM, or Memory where it is flat.
+[[nodiscard]] std::string_view main_memory_title(const SceneReport& report);
+/// Its row hits and bandwidth: levels that count `read_bytes`.
+[[nodiscard]] std::string main_memory_table(const SceneReport& report);
 
 }  // namespace rtu::study

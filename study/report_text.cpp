@@ -98,7 +98,7 @@ std::string text_report(std::span<const SceneReport> reports) {
         out += "\nCycles of each unit, % of the workload's cycles\n" + unit_table(report);
         out += "\nRays in flight, stack and replays\n" + event_table(report);
         out += "\nCaches\n" + cache_table(report);
-        out += "\nDRAM\n" + dram_table(report);
+        out += fmt::format("\n{}\n{}", main_memory_title(report), main_memory_table(report));
         if (report.check) out += check(*report.check);
         out += host(report) + "\n";
     }

@@ -42,9 +42,7 @@ module cache_lookup #(
   always_comb begin
     age_may_leave = '0;
     for (int unsigned w = 0; w < Ways; w++) begin
-      for (int unsigned a = 0; a < Ways; a++) begin
-        if (ages_i[w*WayBits+:WayBits] == WayBits'(a)) age_may_leave[a] = age_may_leave[a] | may_leave[w];
-      end
+      age_may_leave = age_may_leave | (Ways'(may_leave[w]) << ages_i[w*WayBits+:WayBits]);
     end
     older_leaves = 1'b0;
     for (int unsigned a = Ways; a > 0; a--) begin

@@ -17,29 +17,25 @@ module satisfied_target #(
   localparam int unsigned CountBits = $clog2(Targets) + 1;
 
   logic [CountBits-1:0] count;
-  logic [Targets-1:0] is_satisfied, is_first, is_behind;
   logic [(Targets+1)*Width-1:0] targets;
+  logic is_satisfied, moves;  // moves: the first has been found, and the rest close up
   assign count = row_i[Targets*Width+:CountBits];
   assign targets = {{Width{1'b0}}, row_i[Targets*Width-1:0]};
 
-  for (genvar i = 0; i < Targets; i++) begin : gen_target
-    assign is_satisfied[i] = (CountBits'(i) < count) & ~(|(targets[i*Width+:4] & ~arrived_i));
-    if (i == 0) begin : gen_oldest
-      assign is_behind[i] = 1'b0;
-    end else begin : gen_younger
-      assign is_behind[i] = |is_satisfied[i-1:0];
-    end
-    assign is_first[i] = is_satisfied[i] & ~is_behind[i];
-    assign row_o[i*Width+:Width] = targets[(i+((is_behind[i]|is_first[i])?1 : 0))*Width+:Width];
-  end
-  assign row_o[Targets*Width+:CountBits] = count - CountBits'(is_found_o);
-  assign is_found_o = |is_satisfied;
-  assign has_more_o = |(is_satisfied & is_behind);
   always_comb begin
+    moves = 1'b0;
+    has_more_o = 1'b0;
     {tag_o, sectors_o} = '0;
+    row_o[Targets*Width+:CountBits] = count;
     for (int unsigned i = 0; i < Targets; i++) begin
-      if (is_first[i]) {tag_o, sectors_o} = {tag_o, sectors_o} | targets[i*Width+:Width];
+      is_satisfied = (CountBits'(i) < count) & ~(|(targets[i*Width+:4] & ~arrived_i));
+      has_more_o = has_more_o | (moves & is_satisfied);
+      if (is_satisfied & ~moves) {tag_o, sectors_o} = targets[i*Width+:Width];
+      moves = moves | is_satisfied;
+      row_o[i*Width+:Width] = moves ? targets[(i+1)*Width+:Width] : targets[i*Width+:Width];
     end
+    if (moves) row_o[Targets*Width+:CountBits] = count - CountBits'(1);
   end
+  assign is_found_o = moves;
 
 endmodule

@@ -4,14 +4,13 @@
 // are digits, and more products may follow.
 //
 //   clear_i    the sum is zero from the next cycle on, whatever is under way
-//   settle_i   2 cycles or more after the last product's valid_i; is_negative_o and is_zero_o hold 9 cycles later
-//   window_i   then or later; significand_o, is_exact_o and exponent_o hold 2 cycles later, for one cycle
+//   settle_i   2 cycles or more after the last product's valid_i; 9 cycles later is_negative_o and is_zero_o hold until
+//              the sum changes, and 11 cycles later significand_o, is_exact_o and exponent_o for one cycle
 module exact_accumulator (
   input  logic        clk_i,
   input  logic        rst_ni,
   input  logic        clear_i,
   input  logic        settle_i,
-  input  logic        window_i,
   // a product: (-1)^sign * product * factor * 2^exponent, in units of the last place
   input  logic        valid_i,
   input  logic        sign_i,
@@ -47,7 +46,7 @@ module exact_accumulator (
 
   // Second cycle: four digits from word exponent / 32 on. The same register holds digits that are being settled, and the
   // window; its shifter normalises that.
-  logic add_q, sign_q, is_reading_q, is_writing_q, is_window_q;
+  logic add_q, sign_q, is_reading_q, is_writing_q, opens_window_q, is_window_q;
   logic [4:0] first_word_q, zeros;
   logic [71:0] shifted;
   logic [4:0] shift;
@@ -57,15 +56,17 @@ module exact_accumulator (
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       add_q <= 1'b0;
+      opens_window_q <= 1'b0;
       is_window_q <= 1'b0;
     end else begin
       add_q <= product_valid_q & ~clear_i;
-      is_window_q <= window_i;
+      opens_window_q <= is_writing_q & ~is_reading_q;
+      is_window_q <= opens_window_q;
     end
   end
   always_ff @(posedge clk_i) begin
     if (is_reading_q) digits_q <= summed;
-    else if (window_i) digits_q <= window;
+    else if (opens_window_q) digits_q <= window;
     else if (product_valid_q | is_window_q) digits_q <= {56'd0, shifted} << shift;
     if (is_reading_q) first_word_q <= 5'd0;
     else if (product_valid_q) first_word_q <= product_exponent_q[9:5];
@@ -106,33 +107,33 @@ module exact_accumulator (
   assign up[0] = up_q;
   assign down[0] = down_q;
 
-  // Of the settled words: the lowest that is not zero, and the highest that is neither zero nor all ones, as if the sum
-  // were positive and as if it were negative.
+  // Of the settled words: the lowest that is not zero; and where the window begins, three words below the highest that is
+  // not zero, as if the sum were positive, or not all ones, as if it were negative.
   logic is_negative, has_digit_q;
-  logic [4:0] lowest_q, highest_q, highest_if_negative_q, leading_word;
+  logic [4:0] lowest_q, begin_q, begin_if_negative_q, window_begin;
   function automatic logic [1:0] highest_of(input logic [3:1] set);
     highest_of = {|set[3:2], set[3] | (set[1] & ~set[2])};
   endfunction
   always_ff @(posedge clk_i) begin
     if (settle_i) begin
       has_digit_q <= 1'b0;
-      highest_q <= 5'd0;
-      highest_if_negative_q <= 5'd0;
+      begin_q <= -5'd3;
+      begin_if_negative_q <= -5'd3;
     end else if (is_writing_q) begin
       has_digit_q <= has_digit_q | ~(&is_zero);
       if (!has_digit_q) begin
         lowest_q <= {write_row_q, ~is_zero[0] ? 2'd0 : ~is_zero[1] ? 2'd1 : ~is_zero[2] ? 2'd2 : 2'd3};
       end
-      if (!(&is_zero)) highest_q <= {write_row_q, highest_of(~is_zero[3:1])};
-      if (!(&is_full)) highest_if_negative_q <= {write_row_q, highest_of(~is_full[3:1])};
+      if (!(&is_zero)) begin_q <= {write_row_q, highest_of(~is_zero[3:1])} - 5'd3;
+      if (!(&is_full)) begin_if_negative_q <= {write_row_q, highest_of(~is_full[3:1])} - 5'd3;
     end
   end
-  assign leading_word = is_negative ? highest_if_negative_q : highest_q;
+  assign window_begin = is_negative ? begin_if_negative_q : begin_q;
 
   // Word i is in bank i % 4, row i / 4; words beyond the 28 are dropped, and read as zero.
   logic [4:0] first_read;
   logic [31:0] read[4];
-  assign first_read = window_i ? leading_word - 5'd3 : first_word_q;
+  assign first_read = opens_window_q ? window_begin : first_word_q;
   for (genvar bank = 0; bank < 4; bank++) begin : gen_bank
     logic signed [37:0] word_q[7], word, addend, settling, sum;
     logic [6:0] is_live_q;  // a row's word was written since the sum was cleared
@@ -206,9 +207,9 @@ module exact_accumulator (
   assign leading_digit = digits_q[95:64] ^ {32{was_negative_q}};
   assign zeros = fp32_pkg::leading_zeros(leading_digit);
   always_ff @(posedge clk_i) begin
-    if (window_i) begin
+    if (opens_window_q) begin
       was_negative_q <= is_negative;
-      leading_word_q <= leading_word;
+      leading_word_q <= window_begin + 5'd3;
     end
     if (is_window_q) begin
       zeros_q <= zeros;
@@ -228,7 +229,7 @@ module exact_accumulator (
   assign busy = is_reading_q | is_writing_q;
   assert property (@(posedge clk_i) disable iff (!rst_ni) busy |-> !add_q)
   else $error("a product enters while the sum is settled");
-  assert property (@(posedge clk_i) disable iff (!rst_ni) is_reading_q | window_i | is_window_q |-> !product_valid_q)
+  assert property (@(posedge clk_i) disable iff (!rst_ni) is_reading_q | opens_window_q | is_window_q |-> !product_valid_q)
   else $error("a product enters while its register is in use");
   assert property (@(posedge clk_i) disable iff (!rst_ni) clear_i |-> !busy)
   else $error("the sum is cleared while it is settled");

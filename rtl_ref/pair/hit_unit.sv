@@ -112,7 +112,7 @@ module hit_unit #(
   );
   for (genvar i = 0; i < 2; i++) begin : gen_sum
     exact_accumulator u_sum (
-      .clk_i, .rst_ni, .clear_i(clear), .settle_i(settle), .window_i(window), .valid_i(term_valid[i]),
+      .clk_i, .rst_ni, .clear_i(clear), .settle_i(settle), .valid_i(term_valid[i]),
       .sign_i(term_sign[i]), .exponent_i(term_exponent[10*i+:10]), .product_i(term_product), .factor_i(term_factor[24*i+:24]),
       .is_negative_o(is_negative[i]), .is_zero_o(is_zero[i]), .significand_o(significand[i]),
       .is_exact_o(is_exact[i]), .exponent_o(sum_exponent[i])

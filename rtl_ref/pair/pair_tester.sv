@@ -41,13 +41,14 @@ module pair_tester #(
   localparam int unsigned HitWidth = NameWidth + 129;
 
   // A pair takes the entry that was chosen for it before: the lowest free one. Its own is free when its result has left.
-  logic [Entries-1:0] is_used_q, is_free;
+  logic [Entries-1:0] is_used_q, is_free, lowest;
   logic [EntryWidth-1:0] entry_q, lowest_free, freed_entry;
   logic has_entry_q, accepts, leaves, first_ready;
   always_comb begin
+    lowest = is_free & (~is_free + Entries'(1));
     lowest_free = '0;
-    for (int i = Entries - 1; i >= 0; i--) begin
-      if (is_free[i]) lowest_free = EntryWidth'(i);
+    for (int unsigned i = 0; i < Entries; i++) begin
+      if (lowest[i]) lowest_free = lowest_free | EntryWidth'(i);
     end
   end
   assign ready_o = has_entry_q & first_ready;
@@ -110,20 +111,22 @@ module pair_tester #(
 
   // Hit units; the lowest free one takes the next survivor.
   logic [HitUnits-1:0] hit_valid, hit_ready, hit_starts, hit_leaves;
-  logic [HitWidth-1:0] hit[HitUnits];
+  logic [HitUnits*HitWidth-1:0] hit;
   assign hit_starts = {HitUnits{waits_q}} & hit_ready & (~hit_ready + HitUnits'(1));
   assign starts = waits_q & (|hit_ready);
   for (genvar i = 0; i < HitUnits; i++) begin : gen_hit_unit
+    logic [NameWidth-1:0] tag;
+    logic [31:0] t, u, v, primitive_id;
+    logic found;
     hit_unit #(.TagWidth(NameWidth)) u_hit (
       .clk_i, .rst_ni, .valid_i(hit_starts[i]), .ready_o(hit_ready[i]), .tag_i(name_q[NameWidth-1:0]),
       .vertices_i(numbers[383:0]), .primitive_ids_i(numbers[447:384]), .corner_order_i(numbers[453:448]),
       .goes_on_i(name_q[NameWidth+2+:2]), .is_inside_i(name_q[NameWidth+:2]), .origin_i(numbers[549:454]),
       .direction_i(numbers[645:550]), .kz_i(numbers[647:646]), .t_min_i(numbers[679:648]),
       .t_best_i(numbers[711:680]), .has_best_i(numbers[712]), .best_id_i(numbers[744:713]), .valid_o(hit_valid[i]),
-      .ready_i(hit_leaves[i]), .tag_o(hit[i][NameWidth-1:0]), .found_o(hit[i][NameWidth]),
-      .t_o(hit[i][NameWidth+1+:32]), .u_o(hit[i][NameWidth+33+:32]), .v_o(hit[i][NameWidth+65+:32]),
-      .primitive_id_o(hit[i][NameWidth+97+:32])
+      .ready_i(hit_leaves[i]), .tag_o(tag), .found_o(found), .t_o(t), .u_o(u), .v_o(v), .primitive_id_o(primitive_id)
     );
+    assign hit[HitWidth*i+:HitWidth] = {primitive_id, v, u, t, found, tag};
   end
 
   // What leaves. An offer that was not taken stays, though a result that goes before it may come meanwhile.
@@ -144,7 +147,7 @@ module pair_tester #(
   always_comb begin
     result = offers_hit ? '0 : HitWidth'(first_name);
     for (int unsigned i = 0; i < HitUnits; i++) begin
-      if (chosen[i]) result = result | hit[i];
+      if (chosen[i]) result = result | hit[HitWidth*i+:HitWidth];
     end
   end
   assign {primitive_id_o, v_o, u_o, t_o, found_o, freed_entry, tag_o} = result;

@@ -10,17 +10,19 @@ module order_issue #(
   localparam int unsigned PlaceWidth = $clog2(Row),
   localparam int unsigned BlockBits = rtu_pkg::BlockBits,
   localparam int unsigned SpillBits = rtu_pkg::SpillBits,
-  localparam int unsigned OrderBits = BlockBits + PlaceWidth + SpillBits + 33 + SlotWidth
+  localparam int unsigned HeadBits = PlaceWidth + SpillBits + 1 + SlotWidth,
+  localparam int unsigned OrderBits = BlockBits + 33
 ) (
   input  logic                     clk_i,
   input  logic                     rst_ni,
   input  logic [2:0]               block_entries_i,
   input  logic [AddressBits-1:0]   stack_base_i,
   input  logic [15:0]              stack_slot_bytes_i,
-  // The two oldest orders, {first block, its place, blocks that leave, is a reload, ref, slot}, and the next cycle's.
+  // The two oldest orders, {place of the first block, blocks that leave, is a new ray's, slot}, and the next cycle's.
   input  logic [1:0]               valid_i,
-  input  logic [2*OrderBits-1:0]   order_i,
-  input  logic [2*OrderBits-1:0]   next_order_i,
+  input  logic [2*HeadBits-1:0]    head_i,
+  input  logic [2*HeadBits-1:0]    next_head_i,
+  input  logic [2*OrderBits-1:0]   order_i,        // {first block, is a reload, ref}; nothing of a new ray
   output logic [1:0]               pop_o,
   output logic [SlotWidth-1:0]     block_slot_o,   // of the block whose entries block_i shows in the next cycle
   output logic [PlaceWidth-1:0]    block_place_o,
@@ -33,23 +35,25 @@ module order_issue #(
   output logic [1:0]               request_is_write_o
 );
 
-  localparam int unsigned RefAt = SlotWidth, ReloadAt = RefAt + 32, SpillsAt = ReloadAt + 1;
-  localparam int unsigned PlaceAt = SpillsAt + SpillBits, BlockAt = PlaceAt + PlaceWidth;
+  localparam int unsigned SpillsAt = SlotWidth + 1, PlaceAt = SpillsAt + SpillBits;
+  localparam int unsigned ReloadAt = 32, BlockAt = 33;
 
-  logic [OrderBits-1:0] order[2], next_order[2];
-  assign order[0] = order_i[0+:OrderBits];
-  assign order[1] = order_i[OrderBits+:OrderBits];
-  assign next_order[0] = next_order_i[0+:OrderBits];
-  assign next_order[1] = next_order_i[OrderBits+:OrderBits];
+  logic [HeadBits-1:0] head[2], next_head[2];
+  logic [OrderBits-1:0] order[2];
+  for (genvar i = 0; i < 2; i++) begin : gen_order
+    assign head[i] = head_i[i*HeadBits+:HeadBits];
+    assign next_head[i] = next_head_i[i*HeadBits+:HeadBits];
+    assign order[i] = head[i][SlotWidth] ? '0 : order_i[i*OrderBits+:OrderBits];
+  end
 
   logic [SpillBits-1:0] sent_q, sent_d;  // blocks of the oldest order that have left
   logic first_is_spill, second_is_spill, second_is_same;  // second_is_same: both requests are of the oldest order
   logic first_leaves, second_leaves;
-  assign first_is_spill = order[0][SpillsAt+:SpillBits] != sent_q;
+  assign first_is_spill = head[0][SpillsAt+:SpillBits] != sent_q;
   assign second_is_same = first_is_spill;
-  assign second_is_spill = ~second_is_same & order[1][SpillsAt+:SpillBits] != '0;
+  assign second_is_spill = ~second_is_same & head[1][SpillsAt+:SpillBits] != '0;
   assign request_valid_o[0] = valid_i[0];
-  assign request_valid_o[1] = second_is_same ? valid_i[0] & order[0][SpillsAt+:SpillBits] == sent_q + 1'b1 : valid_i[1];
+  assign request_valid_o[1] = second_is_same ? valid_i[0] & head[0][SpillsAt+:SpillBits] == sent_q + 1'b1 : valid_i[1];
   assign first_leaves = request_valid_o[0] & request_ready_i[0];
   assign second_leaves = request_valid_o[1] & request_ready_i[1] & first_leaves;
   assign pop_o = {1'b0, first_leaves & ~first_is_spill} + {1'b0, second_leaves & ~second_is_spill};
@@ -71,9 +75,14 @@ module order_issue #(
     logic [BlockBits-1:0] block;
     logic is_spill, is_stack;
     assign is_spill = i == 0 ? first_is_spill : second_is_spill;
-    assign mine = i == 1 && !second_is_same ? order[1] : order[0];
-    assign slot = mine[SlotWidth-1:0];
-    assign node_ref = mine[RefAt+:32];
+    if (i == 0) begin : gen_first
+      assign mine = order[0];
+      assign slot = head[0][SlotWidth-1:0];
+    end else begin : gen_second
+      assign mine = second_is_same ? order[0] : order[1];
+      assign slot = second_is_same ? head[0][SlotWidth-1:0] : head[1][SlotWidth-1:0];
+    end
+    assign node_ref = mine[31:0];
     assign is_stack = is_spill | mine[ReloadAt];
     assign block = mine[BlockAt+:BlockBits] + (i == 0 && first_is_spill ? BlockBits'(sent_q) : '0);
     assign request_slot_o[i*SlotWidth+:SlotWidth] = slot;
@@ -103,11 +112,11 @@ module order_issue #(
   // The first block that the next cycle can write: of the oldest order then, or of the one behind it.
   logic next_is_spill;
   logic [PlaceWidth+1:0] next_place, in_ring;
-  assign next_is_spill = next_order[0][SpillsAt+:SpillBits] != sent_d;
-  assign block_slot_o = next_is_spill ? next_order[0][SlotWidth-1:0] : next_order[1][SlotWidth-1:0];
-  assign next_place = next_is_spill ? (PlaceWidth + 2)'(next_order[0][PlaceAt+:PlaceWidth]) +
+  assign next_is_spill = next_head[0][SpillsAt+:SpillBits] != sent_d;
+  assign block_slot_o = next_is_spill ? next_head[0][SlotWidth-1:0] : next_head[1][SlotWidth-1:0];
+  assign next_place = next_is_spill ? (PlaceWidth + 2)'(next_head[0][PlaceAt+:PlaceWidth]) +
                                           (PlaceWidth + 2)'(sent_d) * (PlaceWidth + 2)'(block_entries_i)
-                                    : (PlaceWidth + 2)'(next_order[1][PlaceAt+:PlaceWidth]);
+                                    : (PlaceWidth + 2)'(next_head[1][PlaceAt+:PlaceWidth]);
   assign in_ring = next_place >= (PlaceWidth + 2)'(Row) ? next_place - (PlaceWidth + 2)'(Row) : next_place;
   assign block_place_o = in_ring[PlaceWidth-1:0];
 

@@ -65,7 +65,7 @@ module ray_step #(
   assign any_high = |high_i;
   assign any_survives = any_high | (|low_i);
   assign top = highest(any_high ? high_i : low_i);
-  assign below = CountWidth'(top) + (any_high ? CountWidth'(Row) - CountWidth'(base_i) : CountWidth'(0) - CountWidth'(base_i));
+  assign below = CountWidth'(top) - CountWidth'(base_i) + (any_high ? CountWidth'(Row) : CountWidth'(0));
 
   logic has_child, goes_on;
   assign has_child = met_i != 4'd0;

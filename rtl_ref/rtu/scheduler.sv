@@ -81,7 +81,8 @@ module scheduler #(
   localparam int unsigned SpillBits = rtu_pkg::SpillBits;
   localparam int unsigned Payload = 64 * (Width > 4 ? Width : 4);
   localparam int unsigned StateBits = PlaceWidth + CountWidth + BlockBits;
-  localparam int unsigned OrderBits = BlockBits + PlaceWidth + SpillBits + 33 + SlotWidth;
+  localparam int unsigned HeadBits = PlaceWidth + SpillBits + 1 + SlotWidth;  // of an order: as order_issue wants it
+  localparam int unsigned OrderBits = BlockBits + 33;
   localparam int unsigned BoxResult = 64 * Width + 4 + SlotWidth;
   localparam int unsigned PairResult = HitBits + 1 + SlotWidth;
   localparam int unsigned HitResult = HitBits + 1 + TagWidth;
@@ -241,7 +242,8 @@ module scheduler #(
 
   // ---- Stage 3: decide, and write it down.
   logic [Lanes-1:0] ends, order_valid, best_write;
-  logic [Lanes*OrderBits-1:0] order;
+  logic [Lanes*HeadBits-1:0] new_head;
+  logic [Lanes*OrderBits-1:0] new_order;
   logic [Lanes*Row-1:0] entry_write;
   logic [Lanes*64*Row-1:0] new_row;
   logic [Lanes*StateBits-1:0] new_state;
@@ -268,9 +270,11 @@ module scheduler #(
     assign order_valid[lane] = valid_3_q[lane] & ~step_ends;
     assign entry_write[lane*Row+:Row] = write & {Row{valid_3_q[lane]}};
     assign new_state[lane*StateBits+:StateBits] = {blocks, count, base};
-    assign order[lane*OrderBits+:OrderBits] = {
-      reloads ? blocks_3_q[lane] - 1'b1 : blocks_3_q[lane], base_3_q[lane], reloads ? SpillBits'(0) : spills, reloads,
-      node_ref, slot_3_q[lane*SlotWidth+:SlotWidth]
+    assign new_head[lane*HeadBits+:HeadBits] = {
+      base_3_q[lane], reloads ? SpillBits'(0) : spills, 1'b0, slot_3_q[lane*SlotWidth+:SlotWidth]
+    };
+    assign new_order[lane*OrderBits+:OrderBits] = {
+      reloads ? blocks_3_q[lane] - 1'b1 : blocks_3_q[lane], reloads, node_ref
     };
     always_ff @(posedge clk_i) begin
       hit_4_q[lane*HitResult+:HitResult] <= {best_3_q[lane], has_best_3_q[lane], tag_3_q[lane]};
@@ -338,14 +342,19 @@ module scheduler #(
 
   // ---- Stage 4: what rays ask for, and finished rays. An order a slot at most.
   logic [1:0] head_valid, order_pop;
-  logic [2*OrderBits-1:0] head, next_head;
-  multi_fifo #(.Width(OrderBits), .Depth(Slots), .Push(Lanes + 1), .Pop(2)) u_orders (
-    .clk_i, .rst_ni, .push_i({order_valid, ray_start_o}), .data_i({order, OrderBits'(ray_slot_o)}), .space_o(),
-    .valid_o(head_valid), .data_o(head), .next_o(next_head), .pop_i(order_pop)
+  logic [2*HeadBits-1:0] head, next_head;
+  logic [2*OrderBits-1:0] order;
+  multi_fifo #(.Width(HeadBits), .Depth(Slots), .Push(Lanes + 1), .Pop(2)) u_order_heads (
+    .clk_i, .rst_ni, .push_i({order_valid, ray_start_o}), .data_i({new_head, HeadBits'({1'b1, ray_slot_o})}),
+    .space_o(), .valid_o(head_valid), .data_o(head), .next_o(next_head), .pop_i(order_pop)
+  );
+  order_ram #(.Width(OrderBits), .Slots(Slots), .Lanes(2)) u_orders (
+    .clk_i, .read_slot_i({next_head[HeadBits+:SlotWidth], next_head[0+:SlotWidth]}), .read_data_o(order),
+    .write_i(order_valid), .write_slot_i(slot_3_q), .write_data_i(new_order)
   );
   order_issue #(.Slots(Slots), .Row(Row), .NodeSectors(NodeSectors), .AddressBits(AddressBits)) u_issue (
     .clk_i, .rst_ni, .block_entries_i(block_entries), .stack_base_i, .stack_slot_bytes_i, .valid_i(head_valid),
-    .order_i(head), .next_order_i(next_head), .pop_o(order_pop), .block_slot_o(block_read_slot),
+    .head_i(head), .next_head_i(next_head), .order_i(order), .pop_o(order_pop), .block_slot_o(block_read_slot),
     .block_place_o(block_read_place), .request_valid_o, .request_ready_i, .request_address_o, .request_sectors_o,
     .request_slot_o, .request_to_o, .request_is_write_o
   );

@@ -9,6 +9,7 @@
 #include "hit_vectors.hpp"
 #include "rtl_ref/harness/clock.hpp"
 #include "rtl_ref/harness/stream.hpp"
+#include "sim/config.hpp"
 
 namespace rtu {
 namespace {
@@ -32,24 +33,13 @@ void drive(Unit& unit, const HitVector& vector) {
     unit.best_id_i = vector.best ? vector.best->primitive_id : 0;
 }
 
-template <class Unit>
-void expect_as_model(const Unit& rtl, const HitVector& vector) {
-    const auto expected = test::better_hit_in_model(vector);
-    ASSERT_EQ(bool(rtl.found_o), expected.has_value());
-    if (!expected) return;
-    ASSERT_EQ(rtl.primitive_id_o, expected->primitive_id);
-    ASSERT_EQ(rtl.t_o, test::bits_of(expected->t));
-    ASSERT_EQ(rtl.u_o, test::bits_of(expected->u));
-    ASSERT_EQ(rtl.v_o, test::bits_of(expected->v));
-}
-
 // Sends pairs through a tester, whose results may come in another order: a tag is that of one pair at a time.
-// Returns the cycles from the first pair to the last result, or nothing if a result is missing.
+// Returns the cycles from accepting the first pair to the last result, or nothing if a result is missing.
 template <class Unit, class Draw, class Willing = rtl::AlwaysWilling>
 std::optional<std::uint64_t> compare(std::uint64_t count, Draw draw, Willing willing = {}) {
     Unit unit;
     std::map<std::uint8_t, HitVector> inside;
-    std::uint64_t accepted = 0, retired = 0, cycle = 0, last_progress = 0;
+    std::uint64_t accepted = 0, retired = 0, cycle = 0, first_accepted = 0, last_progress = 0;
     std::optional<HitVector> offered;
     std::uint8_t tag = 0;
     rtl::reset(unit);
@@ -66,13 +56,13 @@ std::optional<std::uint64_t> compare(std::uint64_t count, Draw draw, Willing wil
         if (offered && unit.ready_o) {
             inside.emplace(tag, *offered);
             offered.reset();
-            ++accepted;
+            if (accepted++ == 0) first_accepted = cycle;
             last_progress = cycle;
         }
         if (unit.valid_o && unit.ready_i) {
             const auto vector = inside.find(unit.tag_o);
             if (vector == inside.end()) return std::nullopt;
-            expect_as_model(unit, vector->second);
+            test::expect_as_model(unit, vector->second);
             if (testing::Test::HasFatalFailure()) return std::nullopt;
             inside.erase(vector);
             ++retired;
@@ -81,7 +71,7 @@ std::optional<std::uint64_t> compare(std::uint64_t count, Draw draw, Willing wil
         if (cycle - last_progress > 10'000) return std::nullopt;
         rtl::clock_edge(unit);
     }
-    return cycle - 1;
+    return cycle - 1 - first_accepted;
 }
 
 template <class Unit>
@@ -96,11 +86,42 @@ struct BuildNames {
 TYPED_TEST_SUITE(PairTester, Builds, BuildNames);
 
 TYPED_TEST(PairTester, FindsTheHitsOfTheModel) {
-    EXPECT_TRUE(compare<TypeParam>(test::vector_count(10'000), test::DrawHit(51)));
+    EXPECT_TRUE(compare<TypeParam>(test::vector_count(3'000), test::DrawHit(51)));
+}
+
+// In cycles, as simulated.
+constexpr sim::Config::Rtu::Pair simulated;
+constexpr std::uint64_t first_pass = simulated.latency_cycles, queue = 2;
+
+// A lone triangle at distance 1, before which the ray ends, or not, or which it misses.
+HitVector at_distance_1(float t_max, float origin_x = 0) {
+    HitVector vector;
+    vector.pair.pair.vertices = {{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}, {-1, 2, 0}}};
+    vector.pair.ray = model::make_ray_setup({{origin_x, 0, -1}, 0, {0, 0, 1}, t_max}, {});
+    vector.t_max = t_max;
+    return vector;
+}
+
+TYPED_TEST(PairTester, HasTheDocumentedLatencies) {
+    const auto latency = [](const HitVector& vector) {
+        return *compare<TypeParam>(1, [&] { return vector; });
+    };
+    EXPECT_EQ(latency(at_distance_1(2, 9)), first_pass);
+    EXPECT_EQ(latency(at_distance_1(1)), first_pass + queue + simulated.reject_cycles);
+    EXPECT_EQ(latency(at_distance_1(2)), first_pass + queue + simulated.hit_cycles);
+}
+
+// Three hit units: the fourth pair waits for the first one's to be free, a cycle after its result.
+TYPED_TEST(PairTester, TakesALoneTriangleACycleAndKeepsSurvivorsWaiting) {
+    EXPECT_EQ(compare<TypeParam>(200, [] { return at_distance_1(2, 9); }), 199 + first_pass);
+    EXPECT_EQ(compare<TypeParam>(3, [] { return at_distance_1(2); }),
+              first_pass + queue + simulated.hit_cycles + 2);
+    EXPECT_EQ(compare<TypeParam>(4, [] { return at_distance_1(2); }),
+              first_pass + queue + simulated.hit_cycles + 1 + simulated.hit_cycles);
 }
 
 TYPED_TEST(PairTester, LosesNothingToHesitantNeighbours) {
-    EXPECT_TRUE(compare<TypeParam>(2'000, test::DrawHit(52), test::Hesitant{}));
+    EXPECT_TRUE(compare<TypeParam>(1'000, test::DrawHit(52), test::Hesitant{}));
 }
 
 }  // namespace

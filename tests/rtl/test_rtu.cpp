@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -48,6 +51,12 @@ void expect_same_hits(const RtlResult& rtl, const sim::MachineResult& simulated)
     }
 }
 
+// How many times the columns and rows of rays are drawn, for longer runs.
+std::uint32_t ray_scale() {
+    const char* scale = std::getenv("RTUSIM_RTL_RAYS");
+    return scale != nullptr ? std::uint32_t(std::max(1, std::atoi(scale))) : 1;
+}
+
 // Runs both; all but the cycles must be equal, and the cycles within `percent`.
 void compare(const RtlConfig& config, const RtuScene& scene, const model::Workload& workload,
              double percent) {
@@ -82,7 +91,9 @@ class Rtu : public testing::TestWithParam<Case> {};
 TEST_P(Rtu, GivesTheHitsAndCountsAndCyclesOfTheSimulator) {
     const Case& c = GetParam();
     const RtuScene& scene = builtin(c.config.width);
-    compare(c.config, scene, scene.rays(c.kind, model::builtin_camera(), c.columns, c.rows), c.percent);
+    compare(c.config, scene,
+            scene.rays(c.kind, model::builtin_camera(), ray_scale() * c.columns, ray_scale() * c.rows),
+            c.percent);
 }
 
 constexpr RtlConfig::Cache tiny_cache{
@@ -123,7 +134,7 @@ TEST_P(RtuOnScene, GivesTheHitsAndCountsAndCyclesOfTheSimulator) {
     const model::Camera camera = model::automatic_camera(scene.mesh, scene.image);
     for (const auto kind : {WorkloadKind::Primary, WorkloadKind::Diffuse}) {
         SCOPED_TRACE(kind == WorkloadKind::Primary ? "primary" : "diffuse");
-        compare({.slots = 128}, scene, scene.rays(kind, camera, 48, 36), 2);
+        compare({.slots = 128}, scene, scene.rays(kind, camera, 48 * ray_scale(), 36 * ray_scale()), 2);
     }
 }
 

@@ -40,6 +40,9 @@ const Variant variants[] = {
          c.rtu.pair.hit_cycles = 40, c.rtu.pair.reject_cycles = 17;
      }},
     {"three_slow_testers", [](Config& c) { c.rtu.pair.testers = 3, c.rtu.pair.ii_cycles = 5; }},
+    {"packed_nodes", [](Config& c) { c.rtu.box.packs_nodes = 1, c.rtu.box.boxes_per_cycle = 8; }},
+    {"scheduler_without_latency", [](Config& c) { c.rtu.scheduler.latency_cycles = 0; }},
+    {"slow_scheduler", [](Config& c) { c.rtu.scheduler.latency_cycles = 17; }},
     {"stack_of_one", [](Config& c) { c.rtu.stack_entries = 1; }},
     {"flat_memory", [](Config& c) { c.memory.model = MemoryModel::Flat; }},
     {"tiny_with_flat_memory",
@@ -201,8 +204,10 @@ TEST(MachineLatency, OfOneRayIsTheSumOfItsSteps) {
             return simulate(config, image, std::vector(copies, ray), RayKind::ClosestHit).cycles;
         };
         // The third ray finds in the L1 what the first two have brought there.
-        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles + 3;
-        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles + 3;
+        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles +
+                                        config.rtu.scheduler.latency_cycles + 3;
+        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles +
+                                        config.rtu.scheduler.latency_cycles + 3;
         const std::uint64_t hits = hit_unit_cycles(config.rtu.pair, image, ray);
         EXPECT_EQ(cycles(3) - cycles(2),
                   1 + counts.node_visits * node_step + counts.pair_tests * leaf_step + hits);
@@ -219,8 +224,10 @@ TEST(MachineLatency, OfOneColdRayAddsAFlatMemorysForEachVisit) {
     for (const model::Ray& ray : test::rays_into_unit_cube(20, 10)) {
         model::TraversalCounts counts;
         (void)model::trace(image, ray, RayKind::ClosestHit, &counts);
-        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles + 3;
-        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles + 3;
+        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles +
+                                        config.rtu.scheduler.latency_cycles + 3;
+        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles +
+                                        config.rtu.scheduler.latency_cycles + 3;
         const std::uint64_t miss = 2 + 1 + config.memory.latency_cycles;
         EXPECT_EQ(simulate(config, image, std::vector{ray}, RayKind::ClosestHit).cycles,
                   4 + counts.node_visits * (node_step + miss) + counts.pair_tests * (leaf_step + miss));
@@ -331,10 +338,10 @@ TEST(MachineMemory, FlatTakesThePlaceOfL2AndDram) {
     config.memory.bytes_per_cycle = 2;
     const MachineResult narrow = simulate(config, image, rays, RayKind::ClosestHit);
     EXPECT_EQ(narrow.hits, wide.hits);
-    // Bound by its bandwidth; the last request may still be on the bus.
+    // Bound by its bandwidth, but for the last rays, which are few. The last request may still be on the bus.
     const std::uint64_t busy = counter(narrow.memory, "memory", "bus_busy_cycles");
     EXPECT_LE(busy, narrow.cycles + config.l1.line_bytes / config.memory.bytes_per_cycle);
-    EXPECT_GE(double(busy), 0.99 * double(narrow.cycles));
+    EXPECT_GE(double(busy), 0.95 * double(narrow.cycles));
     // What a flat machine does not have cannot matter.
     config.l2 = {}, config.dram = {};
     EXPECT_EQ(simulate(config, image, rays, RayKind::ClosestHit).cycles, narrow.cycles);

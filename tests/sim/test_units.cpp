@@ -23,13 +23,13 @@ struct FourBoxes {
     model::TriangleMesh mesh{"four", {}, {}};
     model::MemoryImage image;
     model::Ray ray{{0, 50, 0}, 0, {1, 0, 0}, 1e30F};
-    FourBoxes() {
+    explicit FourBoxes(std::uint32_t width = 4) {
         for (std::uint32_t i = 0; i < 4; ++i) {
             const float x = 10 * float(i);
             mesh.positions.insert(mesh.positions.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 1}});
             mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         }
-        image = test::image_of(mesh);
+        image = test::image_of(mesh, {.width = width});
     }
 };
 
@@ -60,6 +60,18 @@ TEST_P(BoxRate, IsThatOfItsLanes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lanes, BoxRate, testing::Values(1, 2, 3, 4, 5, 8, 12, 16));
+
+TEST(BoxUnit, GivesIdleLanesToTheNextNodeOnlyWhenItPacks) {
+    const FourBoxes scene(8);
+    constexpr std::uint32_t count = 20;
+    for (const std::uint32_t nodes_per_cycle : {1U, 2U}) {
+        auto slots = started_slots(count, scene.image, scene.ray);
+        const Config::Rtu::Box config{
+            .boxes_per_cycle = 8, .packs_nodes = nodes_per_cycle - 1, .latency_cycles = 12};
+        EXPECT_EQ(run_unit<BoxUnit>(config, slots).arrivals.back(),
+                  1 + (count - 1) / nodes_per_cycle + config.latency_cycles + 1);
+    }
+}
 
 TEST(BoxUnit, WaitsForAFullSinkAndLosesNothing) {
     const FourBoxes scene;

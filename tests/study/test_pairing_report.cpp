@@ -78,7 +78,7 @@ std::vector<WorkloadReport> two_workloads() {
     workload.units = {unit("rtu0.scheduler", {{"node_fetches", "", 30}, {"leaf_fetches", "", 10}}),
                       unit("rtu0.box", {{"issue_cycles", "", 90}, {"node_visits", "", 120}}),
                       unit("rtu1.box", {{"issue_cycles", "", 50}, {"node_visits", "", 40}}),
-                      unit("rtu1.pair", {{"tester_cycles", "", 60}})};
+                      unit("rtu1.pair", {{"tester_cycles", "", 60}, {"hit_unit_cycles", "", 300}})};
     workload.memory = {
         unit("rtu0.l1", {{"line_reads", "", 80}, {"misses", "", 15}, {"mshr_merges", "", 5}}),
         unit("l2", {{"line_reads", "", 20}, {"misses", "", 12}, {"line_writes", "", 8}}),

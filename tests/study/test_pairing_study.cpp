@@ -157,6 +157,14 @@ TEST(PairingStudy, LeavesOutSizesThatTheMachineDoesNotAllow) {
     EXPECT_EQ(points[1].under.config.dram.bytes_per_cycle, 2U);  // no point twice
 }
 
+TEST(PairingStudy, RefusesToVaryWhatAFlatMemoryDoesNotHave) {
+    PairingOptions options = small_options();
+    options.machine = sim::load_config("default", {}, std::vector<std::string>{"memory.model=flat"});
+    EXPECT_THROW((void)study_points(PairingStudyKind::L2Size, options, {}), Error);
+    EXPECT_THROW((void)study_points(PairingStudyKind::DramBandwidth, options, {}), Error);
+    EXPECT_FALSE(study_points(PairingStudyKind::L1Size, options, {}).empty());
+}
+
 TEST(PairingStudy, UnknownNameListsTheKnownOnes) {
     try {
         (void)parse_pairing_study("colour");

@@ -95,6 +95,19 @@ TEST(TextReport, LeavesOutACheckThatWasNotAskedForAndShowsAFailedOne) {
     EXPECT_THAT(text_report(std::vector{report}), testing::Not(HasSubstr("Check")));
 }
 
+TEST(TextReport, ShowsAFlatMemoryWithoutRows) {
+    SceneReport report = example_report();
+    for (WorkloadReport& workload : report.workloads) {
+        auto& memory = workload.memory.back();
+        memory.name = "memory";
+        std::erase_if(memory.counters, [](const auto& counter) { return counter.name == "row_hits"; });
+    }
+    const std::string text = text_report(std::vector{report});
+    EXPECT_THAT(text, HasSubstr("\nMemory\n"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("DRAM")));
+    EXPECT_THAT(text, testing::ContainsRegex("primary +memory +588 +12 +- "));
+}
+
 TEST(JsonReport, HasTheDocumentedKeys) {
     const Json json = Json::parse(json_report(std::vector{example_report()}));
     EXPECT_THAT(keys(json["scene"]),
