@@ -11,6 +11,7 @@
 #include <systemc>
 #include <vector>
 
+#include "apps/area_command.hpp"
 #include "apps/chart_command.hpp"
 #include "apps/config_command.hpp"
 #include "apps/diff_command.hpp"
@@ -24,6 +25,7 @@
 #include "apps/standard_output.hpp"
 #include "apps/sweep_command.hpp"
 #include "apps/trace_command.hpp"
+#include "apps/validate_command.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
 #include "study/version.hpp"
@@ -49,6 +51,8 @@ constexpr const char* footer =
     "  rtusim chart --html methods.html        the studies of ray-triangle tests as pictures\n"
     "  rtusim sweep machines.toml              many machines, their results in one SQLite file\n"
     "  rtusim diff before.json after.json      what changed between two runs or two sweeps\n"
+    "  rtusim area                             gates of the machine, and of sharing a pair's common edge\n"
+    "  rtusim validate                         hits, counts and cycles against the RTL reference\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -109,6 +113,8 @@ int run_cli(int argc, char** argv) {
     add_sweep_command(app, command);
     add_sweep_worker_command(app, command);
     add_diff_command(app, command);
+    add_area_command(app, command);
+    add_validate_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

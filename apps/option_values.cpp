@@ -89,6 +89,14 @@ std::vector<study::SceneSource> parse_scenes(const std::vector<std::string>& nam
     return scenes;
 }
 
+std::vector<study::SceneSource> parse_scenes_or_builtin(const std::vector<std::string>& names) {
+    std::vector<study::SceneSource> scenes;
+    for (const std::string& name : names) {
+        scenes.push_back(name == "builtin" ? study::SceneSource{} : parse_scenes({name}).front());
+    }
+    return scenes;
+}
+
 study::RayInput parse_ray_input(const std::string& file, const std::string& format, const std::string& kind,
                                 bool is_forced) {
     const model::RegularFile probe{file};  // throws for what is not there or no file

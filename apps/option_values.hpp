@@ -37,6 +37,9 @@ namespace rtu::apps {
 /// Every name must be a file that is there; without names, the built-in scene.
 [[nodiscard]] std::vector<study::SceneSource> parse_scenes(const std::vector<std::string>& names);
 
+/// The same for a command that may run without scenes: no names, no scenes; `builtin` is the built-in one.
+[[nodiscard]] std::vector<study::SceneSource> parse_scenes_or_builtin(const std::vector<std::string>& names);
+
 /// A file of rays: it must be there, and its format known or given.
 [[nodiscard]] study::RayInput parse_ray_input(const std::string& file, const std::string& format,
                                               const std::string& kind, bool is_forced);

@@ -1,5 +1,7 @@
 // A word for each ray slot: a memory with synchronous reads (data in the cycle after the address) and a write port for
 // each writer. A read does not see what is written in the same cycle; no two writers share an address in a cycle.
+// An array, not gates: Yosys sees no body, and docs/area.md counts its bits.
+(* blackbox *)
 module slot_ram #(
   parameter int unsigned Width  = 32,
   parameter int unsigned Slots  = 16,
