@@ -15,6 +15,23 @@ double pair_cycles(const sim::Config& config, const RayWork& work) {
     return issues * pair.ii_cycles / pair.testers;
 }
 
+double box_cycles_per_node(const sim::Config& config, const WorkloadProfile& profile) {
+    auto nodes_with = profile.nodes_with;
+    if (config.rtu.box.packs_nodes == 0) {
+        nodes_with = {};
+        nodes_with[config.bvh.width] = 1;
+    }
+    return packed_cycles_per_node(nodes_with, config.rtu.box.boxes_per_cycle);
+}
+
+// For which a ray's surviving triangles hold hit units.
+double hit_unit_cycles(const sim::Config& config, const RayWork& work) {
+    const auto& pair = config.rtu.pair;
+    if (pair.hit_units == 0) return 0;
+    return work.better_hits * pair.hit_cycles + (work.survivors - work.better_hits) * pair.reject_cycles +
+           work.side_tests * pair.side_cycles;
+}
+
 // Cycles between two rays that the host hands to one RTU.
 double host_cycles(const sim::Config& config) {
     const auto rays_per_cycle = double(std::min(config.host.rays_per_cycle, config.rtu.count));
@@ -35,28 +52,43 @@ std::vector<Demand> demands(const sim::Config& config, const WorkloadProfile& pr
     const double l1_misses = block.l1_misses_per_ray,
                  l2_misses = block.l2_misses_per_ray + block.first_touches_per_ray;
     const double row_cycles = dram.t_rp_cycles + dram.t_rcd_cycles + dram.t_cas_cycles;
-    return {
+    std::vector<Demand> parts{
         {"host", host_cycles(config)},
         {"scheduler", visits / std::min(rtu.results_per_cycle, rtu.fetches_per_cycle)},
-        {"box", work.node_visits * packed_cycles_per_node(profile.nodes_with, rtu.box.boxes_per_cycle)},
+        {"box", work.node_visits * box_cycles_per_node(config, profile)},
         {"pair", pair_cycles(config, work)},
         {"l1 banks",
          block.lines_per_ray / in_order_bank_rate(l1.banks, rtu.fetches_per_cycle) + l1_misses / l1.banks},
         {"l1 mshrs", (l1_misses * l2_cycles(config) + l2_misses * dram_cycles(config)) / l1.mshrs},
-        {"l2 banks", rtus * (l1_misses / in_order_bank_rate(l2.banks, l2.banks) + l2_misses / l2.banks)},
-        {"l2 mshrs", rtus * l2_misses * dram_cycles(config) / l2.mshrs},
-        {"dram bus",
-         rtus * l2_misses * std::ceil(double(l2.line_bytes) / dram.bytes_per_cycle) / dram.channels},
-        {"dram banks", rtus * l2_misses * row_cycles / (double(dram.channels) * dram.banks)},
     };
+    if (rtu.pair.hit_units > 0) {
+        parts.push_back(
+            {"hit units", hit_unit_cycles(config, work) / (rtu.pair.hit_units * rtu.pair.testers)});
+    }
+    if (has_flat_memory(config)) {
+        parts.push_back({"memory bus", rtus * l1_misses * flat_bus_cycles(config)});
+        return parts;
+    }
+    parts.insert(
+        parts.end(),
+        {
+            {"l2 banks", rtus * (l1_misses / in_order_bank_rate(l2.banks, l2.banks) + l2_misses / l2.banks)},
+            {"l2 mshrs", rtus * l2_misses * dram_cycles(config) / l2.mshrs},
+            {"dram bus",
+             rtus * l2_misses * std::ceil(double(l2.line_bytes) / dram.bytes_per_cycle) / dram.channels},
+            {"dram banks", rtus * l2_misses * row_cycles / (double(dram.channels) * dram.banks)},
+        });
+    return parts;
 }
 
 double unloaded_cycles(const sim::Config& config, const ProfileBlock& block) {
     const RayWork& work = block.per_ray;
-    constexpr double channels = 3;  // of a visit: request, data, result
-    return 1 + work.node_visits * (config.l1.latency_cycles + config.rtu.box.latency_cycles + channels) +
-           work.leaf_visits * (config.l1.latency_cycles + config.rtu.pair.latency_cycles + channels) +
-           block.l1_misses_per_ray * l2_cycles(config) +
+    // Of every visit: three channels, for request, data and result.
+    const double both = config.l1.latency_cycles + config.rtu.scheduler.latency_cycles + 3.0;
+    const double to_hit_unit = config.rtu.pair.hit_units > 0 ? 2 : 0;
+    return 1 + work.node_visits * (both + config.rtu.box.latency_cycles) +
+           work.leaf_visits * (both + config.rtu.pair.latency_cycles) + work.survivor_pairs * to_hit_unit +
+           hit_unit_cycles(config, work) + block.l1_misses_per_ray * l2_cycles(config) +
            (block.l2_misses_per_ray + block.first_touches_per_ray) * dram_cycles(config);
 }
 

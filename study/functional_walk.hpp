@@ -14,6 +14,10 @@ struct RayWork {
     double leaf_visits = 0;
     double pair_tests = 0;
     double triangle_tests = 0;
+    double survivor_pairs = 0;  ///< with a triangle that the first pass of the pair test lets through
+    double survivors = 0;       ///< such triangles
+    double better_hits = 0;     ///< of them, the ones that became the best hit
+    double side_tests = 0;      ///< of them, the ones whose sides the first pass left open
 
     RayWork& operator+=(const RayWork& other) {
         rays += other.rays;
@@ -22,11 +26,17 @@ struct RayWork {
         leaf_visits += other.leaf_visits;
         pair_tests += other.pair_tests;
         triangle_tests += other.triangle_tests;
+        survivor_pairs += other.survivor_pairs;
+        survivors += other.survivors;
+        better_hits += other.better_hits;
+        side_tests += other.side_tests;
         return *this;
     }
     friend RayWork operator*(double factor, const RayWork& work) {
-        return {factor * work.rays,        factor * work.node_visits, factor * work.box_tests,
-                factor * work.leaf_visits, factor * work.pair_tests,  factor * work.triangle_tests};
+        return {factor * work.rays,           factor * work.node_visits, factor * work.box_tests,
+                factor * work.leaf_visits,    factor * work.pair_tests,  factor * work.triangle_tests,
+                factor * work.survivor_pairs, factor * work.survivors,   factor * work.better_hits,
+                factor * work.side_tests};
     }
 };
 
@@ -50,8 +60,7 @@ class FunctionalWalk {
         if (ref.is_leaf()) {
             work_.leaf_visits += 1;
             for (std::uint32_t i = 0; i < ref.pair_count() && !is_satisfied(traversal_); ++i) {
-                work_.pair_tests += 1;
-                work_.triangle_tests += visit_pair(traversal_, image, i).triangle_tests;
+                add(visit_pair(traversal_, image, i));
             }
         } else {
             work_.node_visits += 1;
@@ -62,6 +71,15 @@ class FunctionalWalk {
     [[nodiscard]] const RayWork& work() const { return work_; }
 
   private:
+    void add(const model::PairVisit& visit) {
+        work_.pair_tests += 1;
+        work_.triangle_tests += visit.triangle_tests;
+        work_.survivor_pairs += visit.exact_tests > 0 ? 1 : 0;
+        work_.survivors += visit.exact_tests;
+        work_.better_hits += visit.better_hits;
+        work_.side_tests += visit.side_tests;
+    }
+
     model::Traversal traversal_;
     RayWork work_;
 };

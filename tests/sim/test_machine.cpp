@@ -230,7 +230,8 @@ TEST(MachineLatency, OfOneColdRayAddsAFlatMemorysForEachVisit) {
                                         config.rtu.scheduler.latency_cycles + 3;
         const std::uint64_t miss = 2 + 1 + config.memory.latency_cycles;
         EXPECT_EQ(simulate(config, image, std::vector{ray}, RayKind::ClosestHit).cycles,
-                  4 + counts.node_visits * (node_step + miss) + counts.pair_tests * (leaf_step + miss));
+                  4 + counts.node_visits * (node_step + miss) + counts.pair_tests * (leaf_step + miss) +
+                      hit_unit_cycles(config.rtu.pair, image, ray));
     }
 }
 

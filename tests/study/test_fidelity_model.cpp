@@ -171,7 +171,15 @@ WorkloadProfile uniform_profile(double nodes, double pairs) {
     profile.nodes_with[4] = 1;
     ProfileBlock& block = profile.blocks.emplace_back();
     block.rays = 1e6;
-    block.per_ray = {1, nodes, 4 * nodes, pairs, pairs, 2 * pairs};
+    block.per_ray = {.rays = 1,
+                     .node_visits = nodes,
+                     .box_tests = 4 * nodes,
+                     .leaf_visits = pairs,
+                     .pair_tests = pairs,
+                     .triangle_tests = 2 * pairs,
+                     .survivor_pairs = pairs / 2,
+                     .survivors = pairs,
+                     .better_hits = pairs / 4};
     return profile;
 }
 
@@ -182,6 +190,7 @@ TEST(AnalyticModel, TheSlowestUnitSetsTheRate) {
     EXPECT_NEAR(box.cycles_per_ray, 20, 0.1);
     EXPECT_EQ(box.bottleneck, "box");
     config.rtu.pair.ii_cycles = 40;
+    config.rtu.pair.hit_units = 0;
     const AnalyticResult pair = analyse(config, profile);
     EXPECT_NEAR(pair.cycles_per_ray, 80, 0.1);
     EXPECT_EQ(pair.bottleneck, "pair");
@@ -190,12 +199,30 @@ TEST(AnalyticModel, TheSlowestUnitSetsTheRate) {
     EXPECT_NEAR(analyse(config, profile).cycles_per_ray, 40, 0.1);
 }
 
+TEST(AnalyticModel, FewHitUnitsSetTheRate) {
+    sim::Config config;
+    config.rtu.pair.hit_units = 2;
+    const AnalyticResult result = analyse(config, uniform_profile(20, 2));
+    EXPECT_NEAR(result.cycles_per_ray, (0.5 * 92 + 1.5 * 56) / 2, 0.5);
+    EXPECT_EQ(result.bottleneck, "hit units");
+}
+
+TEST(AnalyticModel, AFlatMemoryIsOneBus) {
+    WorkloadProfile profile = uniform_profile(20, 2);
+    profile.blocks.front().l1_misses_per_ray = 10;
+    sim::Config config;
+    config.memory = {sim::MemoryModel::Flat, 50, 16};  // 8 cycles a line
+    const AnalyticResult result = analyse(config, profile);
+    EXPECT_NEAR(result.cycles_per_ray, 80, 5);
+    EXPECT_EQ(result.bottleneck, "memory bus");
+}
+
 TEST(AnalyticModel, OneSlotTakesItsLatency) {
     const WorkloadProfile profile = uniform_profile(20, 2);
     sim::Config config;
     config.rtu.ray_slots = 1;
     const double unloaded = unloaded_cycles(config, profile.blocks.front());
-    EXPECT_DOUBLE_EQ(unloaded, 1 + 20 * (20 + 12 + 3) + 2 * (20 + 22 + 3));
+    EXPECT_DOUBLE_EQ(unloaded, 1 + 20 * (20 + 12 + 3 + 3) + 2 * (20 + 33 + 3 + 3) + 2 + 0.5 * 92 + 1.5 * 56);
     EXPECT_GT(analyse(config, profile).cycles_per_ray, unloaded);
 }
 
