@@ -33,13 +33,15 @@ struct RtlConfig {
         std::uint32_t mshrs = 64;             ///< 1 to 64
         std::uint32_t targets_per_mshr = 16;  ///< 1 to 16
         std::uint32_t latency_cycles = 20;    ///< 1 to 32
-    } cache;
+    };
+    Cache cache{};
 
     /// The memory: in order, one request on the bus at a time.
     struct Memory {
         std::uint32_t latency_cycles = 100;
         std::uint32_t bytes_per_cycle = 32;
-    } memory;
+    };
+    Memory memory{};
 };
 
 /// What a run gives and took.

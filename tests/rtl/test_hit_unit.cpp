@@ -55,7 +55,7 @@ Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
 }
 
 TEST(HitUnit, FindsTheHitsOfTheModel) {
-    const std::uint64_t count = test::vector_count(20'000);
+    const std::uint64_t count = test::vector_count(60'000, 10);
     const Tally tally = compare(count, DrawSecondPass(41));
     ASSERT_TRUE(tally.cycles);
     EXPECT_GT(tally.found, count / 4);

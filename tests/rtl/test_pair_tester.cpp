@@ -86,7 +86,7 @@ struct BuildNames {
 TYPED_TEST_SUITE(PairTester, Builds, BuildNames);
 
 TYPED_TEST(PairTester, FindsTheHitsOfTheModel) {
-    EXPECT_TRUE(compare<TypeParam>(test::vector_count(3'000), test::DrawHit(51)));
+    EXPECT_TRUE(compare<TypeParam>(test::vector_count(6'000, 50), test::DrawHit(51)));
 }
 
 // In cycles, as simulated.

@@ -80,7 +80,7 @@ struct Case {
     std::string name;
     WorkloadKind kind = WorkloadKind::Primary;
     std::uint32_t columns = 24, rows = 18;
-    RtlConfig config;
+    RtlConfig config{};
     double percent = 2;
 };
 
@@ -123,7 +123,7 @@ std::vector<Case> cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(OnBuiltinRays, Rtu, testing::ValuesIn(cases()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 class RtuOnScene : public testing::TestWithParam<std::string> {};
 
@@ -139,7 +139,7 @@ TEST_P(RtuOnScene, GivesTheHitsAndCountsAndCyclesOfTheSimulator) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WhereThere, RtuOnScene, testing::Values("bunny", "conference", "dragon"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 TEST(RtuUnderPressure, LosesNothing) {
     const RtuScene& scene = builtin(4);
