@@ -147,10 +147,15 @@ void add_scheduler(const sim::Config& config, std::vector<AreaPart>& parts) {
     parts.push_back(counted("scheduler", "issue of requests", 1, "order_issue"));
     parts.push_back(
         formula("scheduler", "free slots", 1, free_slots_area(rtu.ray_slots), "slots x log2 slots bits"));
-    const std::uint32_t order_bits = block_bits + ceil_log2(row_of(config)) + spill_bits + 33 + slot_bits;
-    parts.push_back(formula("scheduler", "orders", 1,
-                            multi_queue_area({rtu.ray_slots, order_bits, rtu.results_per_cycle + 1, 2}, true),
-                            fmt::format("queue of {} x {} bits", rtu.ray_slots, order_bits)));
+    const std::uint32_t head_bits = ceil_log2(row_of(config)) + spill_bits + 1 + slot_bits;
+    const QueueShape heads{rtu.ray_slots, head_bits, rtu.results_per_cycle + 1, 2};
+    parts.push_back(formula("scheduler", "order of requests", 1, multi_queue_area(heads, true),
+                            fmt::format("queue of {} x {} bits", heads.depth, heads.width_bits)));
+    parts.push_back(
+        array("scheduler", "requests", rtu.ray_slots, block_bits + 33, "a reference, a block a slot"));
+    parts.push_back(counted("scheduler", "request memory", 1, "order_ram:Width=45:Slots=128"));
+    parts.push_back(
+        scaled("scheduler", "stack memory", 1, "stack_ram:Slots=128:Row=19", row_of(config) / 19.0));
 }
 
 void add_queues(const sim::Config& config, std::vector<AreaPart>& parts) {
