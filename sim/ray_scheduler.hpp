@@ -27,8 +27,8 @@ inline constexpr std::uint32_t reply_channel_count = 3;
 ///
 /// A cycle, from the output end: up to `results_per_cycle` results (of the pair unit, then the box unit, then
 /// one stack block read back; the first served alternates) are taken; those taken `scheduler.latency_cycles`
-/// ago advance their rays: pop the stack, skipping entries behind the best hit (by comparison of all entries at
-/// once: no cycle each), and queue the next request, or hand the hit out; then up to `fetches_per_cycle`
+/// ago advance their rays: pop the stack, skipping entries behind the best hit (by comparison of all entries
+/// at once: no cycle each), and queue the next request, or hand the hit out; then up to `fetches_per_cycle`
 /// requests leave in the order in which they were queued, one of them a write at most; then one new ray is
 /// accepted. When a stack outgrows `stack_entries`, its lowest block is written to memory ahead of the ray's
 /// next fetch; when the entries on chip run out, the last block written is read back.

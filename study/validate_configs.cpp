@@ -54,8 +54,7 @@ std::string_view key_of(std::string_view set) { return set.substr(0, set.find('=
 }  // namespace
 
 std::vector<std::string> validated_machine() {
-    return {"memory.model=flat", "rtu.ray_slots=64", "rtu.box.nodes_per_cycle=1",
-            "rtu.scheduler.latency_cycles=3"};
+    return {"memory.model=flat", "rtu.ray_slots=64", "rtu.scheduler.latency_cycles=3"};
 }
 
 std::vector<ValidateConfig> validate_configs() {

@@ -110,7 +110,7 @@ std::vector<Case> cases() {
         {"stack_of_one", Shadow, 16, 12, {.slots = 16, .stack_entries = 1}},
         {"stack_of_two", Diffuse, 24, 18, {.slots = 64, .stack_entries = 2}},
         {"stack_of_four", Primary, 24, 18, {.slots = 64, .stack_entries = 4}},
-        {"tiny_cache", Diffuse, 16, 12, {.slots = 16, .stack_entries = 4, .cache = tiny_cache}},
+        {"tiny_cache", Diffuse, 12, 9, {.slots = 16, .stack_entries = 4, .cache = tiny_cache}},
         {"slow_memory", Primary, 16, 12, {.slots = 32, .memory = {400, 4}}},
         {"fast_memory", Diffuse, 32, 24, {.slots = 64, .memory = {20, 128}}},
         {"single", Diffuse, 32, 24, {.mode = TesterMode::Single, .slots = 64}},
