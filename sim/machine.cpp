@@ -6,8 +6,10 @@
 
 #include "sim/dram.hpp"
 #include "sim/kernel.hpp"
+#include "sim/linked_host.hpp"
 #include "sim/memory_boundary.hpp"
 #include "sim/memory_counters.hpp"
+#include "sim/ray_batches.hpp"
 #include "sim/ray_source.hpp"
 #include "sim/rtu.hpp"
 
@@ -27,21 +29,20 @@ StackRegion stack_region(const Config& config, const model::MemoryImage& image, 
     return {round_up(image.size_bytes(), page_bytes) + first_slot * slot_bytes, slot_bytes};
 }
 
-template <class Counters, std::size_t N>
-std::vector<CounterValue> values(const std::array<CounterRow<Counters>, N>& rows, const Counters& counters) {
-    std::vector<CounterValue> result;
-    result.reserve(N);
-    for (const auto& row : rows) result.push_back({row.name, row.unit, counters.*row.member});
-    return result;
+// A transfer may take longer than anything within the machine.
+Cycle watchdog_cycles(const Config& config) {
+    const std::uint64_t batch_bytes = std::uint64_t(config.link.batch_rays) * ray_bytes;
+    return config.watchdog_cycles + (config.link.count > 0 ? transfer_cycles(config, batch_bytes) : 0);
 }
 
 // All RTUs, the memory that they share, and the two ends that rays come from and go to.
 class Machine {
   public:
-    Machine(const Config& config, const model::MemoryImage& image, RaySupply& rays, model::RayKind kind,
-            const HitConsumer& on_hit, ClockMode mode)
+    // `batches`: the same rays as a host sends them, or none without a link.
+    Machine(const Config& config, const model::MemoryImage& image, RaySupply& rays, BatchSupply* batches,
+            model::RayKind kind, const HitConsumer& on_hit, ClockMode mode)
         : config_(config),
-          domain_("domain", mode, config.watchdog_cycles),
+          domain_("domain", mode, watchdog_cycles(config)),
           source_("ray_source", domain_, rays, config.host.rays_per_cycle, config.rtu.count),
           sink_("hit_sink", domain_, on_hit, config.rtu.count),
           l2_("l2", domain_, config.l2, config.rtu.count, config.rtu.count, 0),
@@ -55,6 +56,10 @@ class Machine {
         l2_.fills_in(dram_replies_);
         dram_.requests_in(dram_requests_);
         dram_.replies_out(dram_replies_);
+        if (batches == nullptr) return;
+        host_ = std::make_unique<LinkedHost>("host_side", domain_, config, *batches);
+        source_.arrivals_in(host_->arrivals);
+        sink_.finished_out(host_->finished);
     }
 
     MachineResult run(const SimulationProgress& progress) {
@@ -63,7 +68,10 @@ class Machine {
             if (progress) progress(source_.share());
         };
         // The run cannot end before its first cycle, so a workload without rays gets none.
-        const auto is_done = [this] { return source_.is_done() && sink_.received() == source_.ray_count(); };
+        const auto is_done = [this] {
+            return source_.is_done() && sink_.received() == source_.ray_count() &&
+                   (!host_ || host_->is_done());
+        };
         if (!source_.is_done()) result.cycles = domain_.run(is_done, tell);
         result.ray_count = source_.ray_count();
         collect(result);
@@ -100,6 +108,7 @@ class Machine {
     }
 
     void collect(MachineResult& result) const {
+        if (host_) result.units = host_->results(host_->check_drained(result.cycles));
         result.units.push_back({"ray_source", source_.cycle_account(), {}});
         for (const auto& node : nodes_) {
             const Rtu& rtu = node->rtu;
@@ -145,6 +154,7 @@ class Machine {
     RaySource source_;
     HitSink sink_;
     std::vector<std::unique_ptr<Node>> nodes_;
+    std::unique_ptr<LinkedHost> host_;  // only with a link
     Cache l2_;
     Dram dram_;
     Fifo<MemoryRequest> dram_requests_;
@@ -157,7 +167,10 @@ MachineResult simulate(const Config& config, const model::MemoryImage& image, Ra
                        model::RayKind kind, const HitConsumer& on_hit, ClockMode mode,
                        const SimulationProgress& progress) {
     start_fresh_kernel();
-    return Machine(config, image, rays, kind, on_hit, mode).run(progress);
+    if (config.link.count == 0)
+        return Machine(config, image, rays, nullptr, kind, on_hit, mode).run(progress);
+    RayBatches batches(rays, config.link.batch_rays);
+    return Machine(config, image, batches, &batches, kind, on_hit, mode).run(progress);
 }
 
 MachineResult simulate(const Config& config, const model::MemoryImage& image,

@@ -4,8 +4,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "model/memory_image.hpp"
@@ -15,30 +13,17 @@
 #include "sim/config.hpp"
 #include "sim/hit_sink.hpp"
 #include "sim/ray_supply.hpp"
+#include "sim/unit_result.hpp"
 
 namespace rtu::sim {
 
-/// One counter's value, with its unit of measure.
-struct CounterValue {
-    std::string_view name;
-    std::string_view unit;
-    std::uint64_t value = 0;
-};
-
-/// Where one unit's cycles went and what it counted. With several RTUs the names start with "rtuN.".
-struct UnitResult {
-    std::string name;
-    CycleAccount cycles;
-    std::vector<CounterValue> counters;
-};
-
 /// What one simulation gives.
 struct MachineResult {
-    Cycle cycles = 0;  ///< from the first ray accepted to the last hit returned
+    Cycle cycles = 0;  ///< from the first ray accepted, or sent over the link, to the last hit returned
     std::uint64_t ray_count = 0;
     std::vector<std::optional<model::Hit>> hits;  ///< [ray_count], unless they went to a HitConsumer
     model::TraversalCounts counts;                ///< over all RTUs
-    std::vector<UnitResult> units;                ///< ray source, each RTU's units, hit sink
+    std::vector<UnitResult> units;                ///< host and link, ray source, each RTU's units, hit sink
     std::vector<UnitResult> memory;               ///< each RTU's L1, the L2, the DRAM
 };
 
