@@ -20,6 +20,7 @@
 #include "apps/run_command.hpp"
 #include "apps/stability_command.hpp"
 #include "apps/standard_output.hpp"
+#include "apps/stream_command.hpp"
 #include "apps/trace_command.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
@@ -43,6 +44,7 @@ constexpr const char* footer =
     "  rtusim stability                        where ray-triangle methods fail, against exact arithmetic\n"
     "  rtusim precision bunny.glb              the cheapest test and number format for its rays\n"
     "  rtusim chart --html methods.html        the studies of ray-triangle tests as pictures\n"
+    "  rtusim stream                           rays and triangles over a host link, without a BVH\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -98,6 +100,7 @@ int run_cli(int argc, char** argv) {
     add_stability_command(app, command);
     add_precision_command(app, command);
     add_chart_command(app, command);
+    add_stream_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {
