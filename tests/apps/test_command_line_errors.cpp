@@ -60,10 +60,9 @@ TEST_F(CommandLineErrors, WrongUsageIsExitCodeTwo) {
 }
 
 TEST_F(CommandLineErrors, AnUnknownCommandIsNamed) {
-    EXPECT_THAT(
-        run({"fly"}).err,
-        HasSubstr("expected a command, run, trace, pairing, methods, stability, precision, chart or config, "
-                  "got 'fly'"));
+    EXPECT_THAT(run({"fly"}).err, HasSubstr("expected a command, run, trace, pairing, methods, stability, "
+                                            "precision, chart, stream or config, "
+                                            "got 'fly'"));
     EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, trace, pairing, methods, "));
 }
 
