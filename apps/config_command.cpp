@@ -41,6 +41,7 @@ void add_config_command(CLI::App& app, std::function<int()>& command) {
         "--config reads back");
     config->footer(footer);
     add_machine_options(*config, arguments->machine);
+    add_link_option(*config, arguments->machine);
     CLI::Option* markdown =
         config->add_flag("--markdown", arguments->is_markdown, "print it as a Markdown table");
     config

@@ -29,10 +29,21 @@ void add_machine_options(CLI::App& command, MachineOptions& options) {
         ->allow_extra_args(false);
 }
 
-sim::EffectiveConfig load(const MachineOptions& options) {
+void add_link_option(CLI::App& command, MachineOptions& options) {
+    command
+        .add_option(
+            "--link", options.link,
+            fmt::format("rays come and hits go over a host link: {}", fmt::join(sim::link_names(), ", ")))
+        ->type_name("NAME")
+        ->capture_default_str();
+}
+
+sim::EffectiveConfig load(const MachineOptions& options) { return load(options, options.link); }
+
+sim::EffectiveConfig load(const MachineOptions& options, const std::string& link) {
     const auto file =
         options.file.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.file);
-    return sim::load_config(options.preset, file, options.sets);
+    return sim::load_config(options.preset, file, options.sets, link);
 }
 
 }  // namespace rtu::apps

@@ -23,6 +23,7 @@
 #include "apps/run_command.hpp"
 #include "apps/stability_command.hpp"
 #include "apps/standard_output.hpp"
+#include "apps/stream_command.hpp"
 #include "apps/sweep_command.hpp"
 #include "apps/trace_command.hpp"
 #include "apps/validate_command.hpp"
@@ -53,6 +54,7 @@ constexpr const char* footer =
     "  rtusim diff before.json after.json      what changed between two runs or two sweeps\n"
     "  rtusim area                             gates of the machine, and of sharing a pair's common edge\n"
     "  rtusim validate                         hits, counts and cycles against the RTL reference\n"
+    "  rtusim stream                           rays and triangles over a host link, without a BVH\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -115,6 +117,7 @@ int run_cli(int argc, char** argv) {
     add_diff_command(app, command);
     add_area_command(app, command);
     add_validate_command(app, command);
+    add_stream_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

@@ -13,14 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Digits only: no sign, no blanks, no overflow.
-std::optional<std::uint64_t> parse_number(std::string_view text) {
+}  // namespace
+
+std::optional<std::uint64_t> parse_count(std::string_view text) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
-
-}  // namespace
 
 std::optional<fs::path> optional_path(const std::string& text) {
     return text.empty() ? std::nullopt : std::optional<fs::path>(text);
@@ -48,15 +47,15 @@ std::vector<std::string> parse_list(std::string_view option, std::string_view te
 }
 
 std::uint64_t parse_seed(std::string_view text) {
-    const auto seed = parse_number(text);
+    const auto seed = parse_count(text);
     if (!seed) throw Error("--seed: expected a number from 0 to 2^64 - 1, got '{}'", text);
     return *seed;
 }
 
 model::Resolution parse_resolution(std::string_view text) {
     const std::size_t cross = std::min(text.find('x'), text.size());
-    const auto width = parse_number(text.substr(0, cross));
-    const auto height = parse_number(text.substr(std::min(cross + 1, text.size())));
+    const auto width = parse_count(text.substr(0, cross));
+    const auto height = parse_count(text.substr(std::min(cross + 1, text.size())));
     constexpr std::uint64_t most_pixels = 1 << 26;  // each costs about 100 bytes of host memory
     const auto is_side = [](auto side) { return side && *side >= 1 && *side <= 16384; };
     if (!is_side(width) || !is_side(height) || *width * *height > most_pixels) {

@@ -26,6 +26,9 @@ namespace rtu::apps {
 /// The same for an option that may not name anything twice; nothing for an empty text.
 [[nodiscard]] std::vector<std::string> parse_list(std::string_view option, std::string_view text);
 
+/// Digits only: no sign, no blanks, no overflow; nothing for anything else.
+[[nodiscard]] std::optional<std::uint64_t> parse_count(std::string_view text);
+
 [[nodiscard]] std::uint64_t parse_seed(std::string_view text);
 
 /// "640x480".

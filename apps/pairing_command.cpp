@@ -154,6 +154,7 @@ void add_pairing_command(CLI::App& app, std::function<int()>& command) {
     add_comparison_options(*pairing, *arguments);
     add_ray_options(*pairing, *arguments);
     add_machine_options(*pairing, arguments->machine);
+    add_link_option(*pairing, arguments->machine);
     add_output_options(*pairing, *arguments);
     pairing->callback([arguments, &command] { command = [arguments] { return run_pairing(*arguments); }; });
 }

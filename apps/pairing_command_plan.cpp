@@ -69,10 +69,11 @@ study::RotationDegrees parse_rotation(std::string_view text) {
     return rotation;
 }
 
-// Each preset with the changes that were asked for; only the study `preset` needs them.
+// Each preset of an RTU with the changes that were asked for; only the study `preset` needs them.
 std::vector<study::NamedMachine> load_presets(const MachineOptions& options) {
     std::vector<study::NamedMachine> machines;
     for (const std::string& name : sim::preset_names()) {
+        if (name == "nv35") continue;  // it had no traversal hardware
         MachineOptions one = options;
         one.preset = name;
         machines.push_back({name, load(one)});

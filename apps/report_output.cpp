@@ -1,5 +1,7 @@
 #include "apps/report_output.hpp"
 
+#include <utility>
+
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
 #include "apps/standard_output.hpp"

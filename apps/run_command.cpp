@@ -121,6 +121,7 @@ void add_run_command(CLI::App& app, std::function<int()>& command) {
     add_picture_options(*run_app, *arguments, rays);
     add_ray_input_options(*run_app, *arguments, rays);
     add_machine_options(*run_app, arguments->machine);
+    add_link_option(*run_app, arguments->machine);
     add_output_options(*run_app, *arguments);
     add_fidelity_options(*run_app, *arguments);
     add_host_options(*run_app, *arguments);

@@ -111,6 +111,7 @@ void add_replay(CLI::App& trace, std::function<int()>& command) {
     add_ray_input_options(*app, *arguments, nullptr);
     add_tree_options(*app, *arguments);
     add_machine_options(*app, arguments->machine);
+    add_link_option(*app, arguments->machine);
     add_output_options(*app, *arguments);
     add_host_options(*app, *arguments);
     app->callback([arguments, &command] { command = [arguments] { return run_scenes(*arguments); }; });

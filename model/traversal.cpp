@@ -138,6 +138,10 @@ PairVisit visit_pair(Traversal& traversal, const MemoryImage& image, std::uint32
     return update_closest(traversal.closest, image.leaf_pair(traversal.current.ref, index), traversal.ray);
 }
 
+PairVisit visit_pair(Closest& closest, const LeafPair& pair, const RaySetup& ray) {
+    return update_closest(closest, pair, ray);
+}
+
 bool pop(Traversal& traversal, std::size_t floor) {
     while (traversal.stack.size() > floor) {
         traversal.current = traversal.stack.pop();

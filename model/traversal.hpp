@@ -94,6 +94,9 @@ struct PairVisit {
 /// wins.
 PairVisit visit_pair(Traversal& traversal, const MemoryImage& image, std::uint32_t index);
 
+/// The same for any pair, without a tree; `closest` begins as {Hit{.t = ray.t_max}}.
+PairVisit visit_pair(Closest& closest, const LeafPair& pair, const RaySetup& ray);
+
 /// Pops entries until one can still matter (it starts no farther than the closest hit) and makes it
 /// `current`; entries at or below `floor` stay. False when none is left above `floor`.
 [[nodiscard]] bool pop(Traversal& traversal, std::size_t floor = 0);

@@ -91,7 +91,7 @@ void ClockDomain::tick_batch() {
         const Cycle next = items_ == 0 ? next_cycle() : now_ + 1;
         if (next > now_ + 1) {
             if (next == no_cycle) fail();
-            for (ClockedUnit* unit : units_) unit->skip(next - now_ - 1);
+            for (ClockedUnit* unit : units_) unit->skip(now_, next - now_ - 1);
         }
         now_ = next;
     }

@@ -25,8 +25,8 @@ class ClockedUnit : public sc_core::sc_module {
 
     /// Runs cycle `now` and accounts for it.
     void step(Cycle now) { account(tick(now), 1); }
-    /// Accounts for cycles in which the domain knew that nothing could happen.
-    void skip(std::uint64_t cycles) { account(Activity::Waiting, cycles); }
+    /// Accounts for the cycles after `now` in which the domain knew that nothing could begin or end.
+    void skip(Cycle now, std::uint64_t cycles) { account(between_events(now), cycles); }
 
     /// The earliest cycle after `now` in which this unit acts although no channel holds anything; no_cycle
     /// when it waits for input.
@@ -44,6 +44,9 @@ class ClockedUnit : public sc_core::sc_module {
   protected:
     /// One cycle, from the output end to the input end: retire, compute, accept.
     virtual Activity tick(Cycle now) = 0;
+    /// What tick() would return in every cycle after `now` and before the next event of any unit. A unit
+    /// whose work goes on by itself says Busy; its next_event() must then tell when the work ends.
+    [[nodiscard]] virtual Activity between_events(Cycle /*now*/) const { return Activity::Waiting; }
 
   private:
     void on_clock();

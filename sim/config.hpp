@@ -28,6 +28,20 @@ struct Config {
         std::uint32_t rays_per_cycle = 1;
     } host;
 
+    /// The way between the host and the machine.
+    struct Link {
+        std::uint32_t count = 0;  ///< 0: rays and hits move for free
+        std::uint32_t up_mb_per_second = 28'807;
+        std::uint32_t down_mb_per_second = 28'807;
+        std::uint32_t wires = 2;  ///< 1: both directions take turns
+        std::uint32_t latency_ns = 425;
+        std::uint32_t overhead_ns = 6000;  ///< of the host, for each transfer
+        std::uint32_t outstanding = 8;     ///< transfers under way
+        std::uint32_t buffers = 2;         ///< batches under way; 2: double buffering
+        std::uint32_t buffer_bytes = 65'536;
+        std::uint32_t batch_rays = 65'536;
+    } link;
+
     struct Bvh {
         std::uint32_t width = 4;
         std::uint32_t max_leaf_pairs = 1;

@@ -129,8 +129,12 @@ EffectiveConfig assign(EffectiveConfig base, const ConfigAssignment& assignment)
 }
 
 EffectiveConfig load_config(std::string_view preset, const std::optional<std::filesystem::path>& file,
-                            std::span<const std::string> sets) {
+                            std::span<const std::string> sets, std::string_view link) {
     EffectiveConfig config = preset_config(find_preset(preset));
+    if (link != "none") {
+        config = assign_all(std::move(config),
+                            parse_config_toml(find_link(link).toml, fmt::format("link {}", link)));
+    }
     if (file) config = assign_all(std::move(config), read_config_file(*file));
     config = assign_all(std::move(config), parse_sets(sets));
     validate(config);

@@ -38,12 +38,13 @@ struct EffectiveConfig {
 /// `base` with one more statement. Throws Error for an unknown key or a value that the table does not allow.
 [[nodiscard]] EffectiveConfig assign(EffectiveConfig base, const ConfigAssignment& assignment);
 
-/// The preset, changed by the file, changed by the options (`sets`: "key=value" each), validated.
+/// The preset, with the link of that name (`none` changes nothing), changed by the file, changed by the
+/// options (`sets`: "key=value" each), validated.
 /// Throws Error, with file and line or the option, for anything unknown, repeated, out of range or
 /// contradictory.
 [[nodiscard]] EffectiveConfig load_config(std::string_view preset,
                                           const std::optional<std::filesystem::path>& file,
-                                          std::span<const std::string> sets);
+                                          std::span<const std::string> sets, std::string_view link = "none");
 
 /// Checks every range and the rules between keys; throws Error naming the keys and where they were set.
 void validate(const EffectiveConfig& effective);

@@ -16,12 +16,14 @@ std::string HitSink::describe() const {
 
 Activity HitSink::tick(Cycle now) {
     Activity activity = Activity::Waiting;
+    const std::uint32_t first = next_;
     for (auto& port : hits_in) {
         while (port->can_pop(now)) {
             take(port->pop(now));
             activity = Activity::Busy;
         }
     }
+    if (next_ > first && finished_out.size() > 0) finished_out->push(now, {next_ - first});
     return activity;
 }
 

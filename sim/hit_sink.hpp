@@ -8,6 +8,7 @@
 
 #include "sim/clocked_unit.hpp"
 #include "sim/fifo.hpp"
+#include "sim/link_message.hpp"
 #include "sim/ray_slots.hpp"
 
 namespace rtu::sim {
@@ -22,6 +23,8 @@ class HitSink final : public ClockedUnit {
     HitSink(sc_core::sc_module_name name, ClockDomain& domain, HitConsumer consumer, std::uint32_t rtu_count);
 
     sc_core::sc_vector<sc_core::sc_port<Fifo<HitMessage>>> hits_in;  ///< [rtu_count]
+    /// To a link's host; unbound: nobody is told.
+    sc_core::sc_port<Fifo<ItemsFinished>, 1, sc_core::SC_ZERO_OR_MORE_BOUND> finished_out{"finished_out"};
 
     /// Rays returned.
     [[nodiscard]] std::uint64_t received() const { return received_; }

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "sim/kernel.hpp"
+#include "sim/linked_host.hpp"
 #include "sim/memory_boundary.hpp"
 #include "sim/memory_counters.hpp"
+#include "sim/ray_batches.hpp"
 #include "sim/ray_source.hpp"
 #include "sim/rtu.hpp"
 #include "sim/shared_memory.hpp"
@@ -24,19 +26,30 @@ model::StackRegion stack_region(const Config& config, const model::MemoryImage& 
     return region;
 }
 
+// A transfer may take longer than anything within the machine.
+Cycle watchdog_cycles(const Config& config) {
+    const std::uint64_t batch_bytes = std::uint64_t(config.link.batch_rays) * ray_bytes;
+    return config.watchdog_cycles + (config.link.count > 0 ? transfer_cycles(config, batch_bytes) : 0);
+}
+
 // All RTUs, the memory that they share, and the two ends that rays come from and go to.
 class Machine {
   public:
-    Machine(const Config& config, const model::MemoryImage& image, RaySupply& rays, model::RayKind kind,
-            const HitConsumer& on_hit, ClockMode mode)
+    // `batches`: the same rays as a host sends them, or none without a link.
+    Machine(const Config& config, const model::MemoryImage& image, RaySupply& rays, BatchSupply* batches,
+            model::RayKind kind, const HitConsumer& on_hit, ClockMode mode)
         : config_(config),
-          domain_("domain", mode, config.watchdog_cycles),
+          domain_("domain", mode, watchdog_cycles(config)),
           source_("ray_source", domain_, rays, config.host.rays_per_cycle, config.rtu.count),
           sink_("hit_sink", domain_, on_hit, config.rtu.count),
           memory_(make_shared_memory(config, domain_)) {
         for (std::uint32_t i = 0; i < config.rtu.count; ++i) {
             add_rtu(i, {image, kind, stack_region(config, image, i)}, std::as_bytes(std::span(image.blocks)));
         }
+        if (batches == nullptr) return;
+        host_ = std::make_unique<LinkedHost>("host_side", domain_, config, *batches);
+        source_.arrivals_in(host_->arrivals);
+        sink_.finished_out(host_->finished);
     }
 
     MachineResult run(const SimulationProgress& progress) {
@@ -79,7 +92,10 @@ class Machine {
     // Until all rays have returned, or `is_there()`. The run cannot end before its first cycle, so a workload
     // without rays gets none.
     void advance(const std::function<bool()>& is_there, const std::function<void()>& tell) {
-        const auto is_done = [this] { return source_.is_done() && sink_.received() == source_.ray_count(); };
+        const auto is_done = [this] {
+            return source_.is_done() && sink_.received() == source_.ray_count() &&
+                   (!host_ || host_->is_done());
+        };
         if (is_done()) return;
         cycles_ = domain_.run([&] { return is_there() || is_done(); }, tell);
     }
@@ -116,6 +132,7 @@ class Machine {
     }
 
     void collect(MachineResult& result) const {
+        if (host_) result.units = host_->results(host_->check_drained(result.cycles));
         result.units.push_back({"ray_source", source_.cycle_account(), {}});
         for (const auto& node : nodes_) {
             const Rtu& rtu = node->rtu;
@@ -161,6 +178,7 @@ class Machine {
     RaySource source_;
     HitSink sink_;
     std::vector<std::unique_ptr<Node>> nodes_;
+    std::unique_ptr<LinkedHost> host_;  // only with a link
     std::unique_ptr<SharedMemory> memory_;
     Cycle cycles_ = 0;
 };
@@ -171,7 +189,10 @@ MachineResult simulate(const Config& config, const model::MemoryImage& image, Ra
                        model::RayKind kind, const HitConsumer& on_hit, ClockMode mode,
                        const SimulationProgress& progress) {
     start_fresh_kernel();
-    return Machine(config, image, rays, kind, on_hit, mode).run(progress);
+    if (config.link.count == 0)
+        return Machine(config, image, rays, nullptr, kind, on_hit, mode).run(progress);
+    RayBatches batches(rays, config.link.batch_rays);
+    return Machine(config, image, batches, &batches, kind, on_hit, mode).run(progress);
 }
 
 MachineResult simulate(const Config& config, const model::MemoryImage& image,
@@ -190,7 +211,7 @@ class MachineSession::Parts {
   public:
     Parts(const Config& config, const model::MemoryImage& image, RaySupply& rays, model::RayKind kind)
         : machine(
-              config, image, rays, kind, [](const std::optional<model::Hit>&) {}, ClockMode::Fast) {}
+              config, image, rays, nullptr, kind, [](const std::optional<model::Hit>&) {}, ClockMode::Fast) {}
     Machine machine;
 };
 

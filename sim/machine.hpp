@@ -7,8 +7,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "model/memory_image.hpp"
@@ -19,40 +17,17 @@
 #include "sim/counter_table.hpp"
 #include "sim/hit_sink.hpp"
 #include "sim/ray_supply.hpp"
+#include "sim/unit_result.hpp"
 
 namespace rtu::sim {
 
-/// One counter's value, with its unit of measure.
-struct CounterValue {
-    std::string_view name;
-    std::string_view unit;
-    std::uint64_t value = 0;
-};
-
-/// A unit's counters as its table lists them.
-template <class Counters, std::size_t N>
-[[nodiscard]] std::vector<CounterValue> counter_values(const std::array<CounterRow<Counters>, N>& rows,
-                                                       const Counters& counters) {
-    std::vector<CounterValue> result;
-    result.reserve(N);
-    for (const auto& row : rows) result.push_back({row.name, row.unit, counters.*row.member});
-    return result;
-}
-
-/// Where one unit's cycles went and what it counted. With several RTUs the names start with "rtuN.".
-struct UnitResult {
-    std::string name;
-    CycleAccount cycles;
-    std::vector<CounterValue> counters;
-};
-
 /// What one simulation gives.
 struct MachineResult {
-    Cycle cycles = 0;  ///< from the first ray accepted to the last hit returned
+    Cycle cycles = 0;  ///< from the first ray accepted, or sent over the link, to the last hit returned
     std::uint64_t ray_count = 0;
     std::vector<std::optional<model::Hit>> hits;  ///< [ray_count], unless they went to a HitConsumer
     model::TraversalCounts counts;                ///< over all RTUs
-    std::vector<UnitResult> units;                ///< ray source, each RTU's units, hit sink
+    std::vector<UnitResult> units;                ///< host and link, ray source, each RTU's units, hit sink
     std::vector<UnitResult> memory;               ///< each RTU's L1; the L2 and the DRAM, or the flat memory
 };
 

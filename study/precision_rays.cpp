@@ -10,6 +10,7 @@
 #include "model/random.hpp"
 #include "model/traversal.hpp"
 #include "model/weld.hpp"
+#include "study/spread_sample.hpp"
 
 namespace rtu::study {
 namespace {
@@ -23,18 +24,6 @@ constexpr std::uint32_t sample_purpose = 16, aim_purpose = 17;
 Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
     const auto& t = mesh.triangles[triangle];
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
-}
-
-// One of each of `want` stretches of equal length: a fixed stride would walk down a column of the picture.
-std::vector<std::size_t> sample(std::size_t have, std::uint32_t want, std::uint64_t seed) {
-    const std::size_t count = std::min<std::size_t>(have, want);
-    std::vector<std::size_t> chosen(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t begin = i * have / count, end = (i + 1) * have / count;
-        model::RandomStream random(seed, sample_purpose, std::uint32_t(i));
-        chosen[i] = begin + std::size_t(random.next() * float(end - begin));
-    }
-    return chosen;
 }
 
 // The primitives of every pair that a traversal tests.
@@ -118,7 +107,7 @@ std::vector<RayTriangles> sampled_rays(const TriangleMesh& mesh, const model::Me
                                        std::uint64_t seed) {
     std::vector<RayTriangles> rays;
     model::Traversal traversal;
-    for (const std::size_t index : sample(workload.rays.size(), ray_count, seed)) {
+    for (const std::size_t index : spread_sample(workload.rays.size(), ray_count, seed, sample_purpose)) {
         RayTriangles one{workload.rays[index], {}};
         for (const std::uint32_t triangle : tested_triangles(traversal, image, one.ray, workload.ray_kind))
             one.triangles.push_back(corners_of(mesh, triangle));
@@ -133,7 +122,7 @@ std::vector<RayTriangles> aimed_rays(const TriangleMesh& mesh, const model::Memo
     const Neighbours neighbours(mesh);
     std::vector<RayTriangles> rays;
     model::TraversalStack stack;
-    for (const std::size_t index : sample(workload.rays.size(), ray_count, seed)) {
+    for (const std::size_t index : spread_sample(workload.rays.size(), ray_count, seed, sample_purpose)) {
         const model::Ray& ray = workload.rays[index];
         const auto hit = trace(stack, image, ray, model::RayKind::ClosestHit);
         if (!hit) continue;

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "study/report_link.hpp"
 #include "study/report_sections.hpp"
 #include "study/text_table.hpp"
 
@@ -99,6 +100,7 @@ std::string text_report(std::span<const SceneReport> reports) {
         out += "\nRays in flight, stack and replays\n" + event_table(report);
         out += "\nCaches\n" + cache_table(report);
         out += fmt::format("\n{}\n{}", main_memory_title(report), main_memory_table(report));
+        out += link_section(report);
         if (report.check) out += check(*report.check);
         out += host(report) + "\n";
     }

@@ -191,15 +191,51 @@ std::vector<std::string> citations(std::string_view text) {
     return found;
 }
 
-TEST(MachinePage, ListsEverySourceThatAPresetCites) {
-    const std::string page = machine_page();
-    for (const std::string& name : preset_names()) {
-        for (const EffectiveConfig::Origin& origin : load_config(name, {}, {}).origins) {
-            for (const std::string& key : citations(origin.source)) {
-                EXPECT_TRUE(page.find("- **" + key + "** ") != std::string::npos) << name << " cites " << key;
-            }
+void expect_sources_listed(const std::string& page, const std::string& name, const EffectiveConfig& config) {
+    for (const EffectiveConfig::Origin& origin : config.origins) {
+        for (const std::string& key : citations(origin.source)) {
+            EXPECT_TRUE(page.find("- **" + key + "** ") != std::string::npos) << name << " cites " << key;
         }
     }
+}
+
+TEST(MachinePage, ListsEverySourceThatAPresetOrALinkCites) {
+    const std::string page = machine_page();
+    for (const std::string& name : preset_names())
+        expect_sources_listed(page, name, load_config(name, {}, {}));
+    for (const std::string& name : link_names())
+        expect_sources_listed(page, name, load_config("default", {}, {}, name));
+}
+
+TEST(Links, ChangeKeysOfTheLinkOnlyAndGiveTheirSources) {
+    const EffectiveConfig without = load_config("rdna4", {}, {}, "none");
+    EXPECT_EQ(without.config.link.count, 0U);
+    ASSERT_GE(embedded_links().size(), 5U);
+    for (const EmbeddedPreset& link : embedded_links()) {
+        const EffectiveConfig with = load_config("rdna4", {}, {}, link.name);
+        EXPECT_EQ(with.config.link.count, 1U);
+        for (std::size_t i = 0; i < config_keys().size(); ++i) {
+            const ConfigKey& key = config_keys()[i];
+            if (key.name.starts_with("link.")) continue;
+            EXPECT_EQ(config_value(with.config, key), config_value(without.config, key)) << key.name;
+            EXPECT_EQ(with.origins[i].source, without.origins[i].source);
+        }
+        EXPECT_FALSE(with.origins[config_key_index("link.up_mb_per_second", "")].source.empty());
+    }
+}
+
+TEST(Links, ComeAfterThePresetAndBeforeFileAndOptions) {
+    const TemporaryFile file("[link]\nlatency_ns = 7\noverhead_ns = 8\n");
+    const std::vector<std::string> sets{"link.overhead_ns=9"};
+    const Config::Link link = load_config("default", file.path(), sets, "agp_8x").config.link;
+    EXPECT_EQ(link.down_mb_per_second, 250U);
+    EXPECT_EQ(link.latency_ns, 7U);
+    EXPECT_EQ(link.overhead_ns, 9U);
+}
+
+TEST(Links, UnknownOnesAreErrorsThatNameTheKnown) {
+    EXPECT_EQ(error_of([] { (void)load_config("default", {}, {}, "pcie9"); }),
+              "link: expected one of none, agp_8x, pcie3_x16, pcie4_x16, pcie5_x16, on_chip, got 'pcie9'");
 }
 
 }  // namespace
