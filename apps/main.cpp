@@ -11,16 +11,21 @@
 #include <systemc>
 #include <vector>
 
+#include "apps/area_command.hpp"
 #include "apps/chart_command.hpp"
 #include "apps/config_command.hpp"
+#include "apps/diff_command.hpp"
 #include "apps/exit_code.hpp"
+#include "apps/fidelity_command.hpp"
 #include "apps/methods_command.hpp"
 #include "apps/pairing_command.hpp"
 #include "apps/precision_command.hpp"
 #include "apps/run_command.hpp"
 #include "apps/stability_command.hpp"
 #include "apps/standard_output.hpp"
+#include "apps/sweep_command.hpp"
 #include "apps/trace_command.hpp"
+#include "apps/validate_command.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
 #include "study/version.hpp"
@@ -39,10 +44,15 @@ constexpr const char* footer =
     "  rtusim run --help                       all options of a run\n"
     "  rtusim trace --help                     record, replay and convert rays\n"
     "  rtusim pairing bunny.glb                what triangle pairing does to the hardware\n"
+    "  rtusim fidelity bunny.glb               how far off faster ways of telling MRPS are\n"
     "  rtusim methods                          how fast each ray-triangle test is on this host\n"
     "  rtusim stability                        where ray-triangle methods fail, against exact arithmetic\n"
     "  rtusim precision bunny.glb              the cheapest test and number format for its rays\n"
     "  rtusim chart --html methods.html        the studies of ray-triangle tests as pictures\n"
+    "  rtusim sweep machines.toml              many machines, their results in one SQLite file\n"
+    "  rtusim diff before.json after.json      what changed between two runs or two sweeps\n"
+    "  rtusim area                             gates of the machine, and of sharing a pair's common edge\n"
+    "  rtusim validate                         hits, counts and cycles against the RTL reference\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -50,7 +60,8 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (!app.get_subcommands().empty()) return error.what();
     const std::vector<std::string> rest = app.remaining();
     std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::App* command :
+         app.get_subcommands([](const CLI::App* listed) { return !listed->get_group().empty(); }))
         names.push_back(command->get_name());
     const std::string last = names.back();
     names.pop_back();
@@ -94,10 +105,16 @@ int run_cli(int argc, char** argv) {
     add_run_command(app, command);
     add_trace_command(app, command);
     add_pairing_command(app, command);
+    add_fidelity_command(app, command);
     add_methods_command(app, command);
     add_stability_command(app, command);
     add_precision_command(app, command);
     add_chart_command(app, command);
+    add_sweep_command(app, command);
+    add_sweep_worker_command(app, command);
+    add_diff_command(app, command);
+    add_area_command(app, command);
+    add_validate_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

@@ -89,6 +89,14 @@ std::vector<study::SceneSource> parse_scenes(const std::vector<std::string>& nam
     return scenes;
 }
 
+std::vector<study::SceneSource> parse_scenes_or_builtin(const std::vector<std::string>& names) {
+    std::vector<study::SceneSource> scenes;
+    for (const std::string& name : names) {
+        scenes.push_back(name == "builtin" ? study::SceneSource{} : parse_scenes({name}).front());
+    }
+    return scenes;
+}
+
 study::RayInput parse_ray_input(const std::string& file, const std::string& format, const std::string& kind,
                                 bool is_forced) {
     const model::RegularFile probe{file};  // throws for what is not there or no file
@@ -98,6 +106,28 @@ study::RayInput parse_ray_input(const std::string& file, const std::string& form
     input.format = format.empty() ? traces::format_of_input(file) : traces::parse_ray_format(format);
     input.is_forced = is_forced;
     return input;
+}
+
+study::FidelityLevel parse_fidelity(std::string_view text) {
+    if (text == "rtl") {
+        throw Error(
+            "--fidelity: rtl is not built into this command; cycles are compared with RTL by the tests");
+    }
+    try {
+        return study::parse_fidelity_level(text);
+    } catch (const Error& error) {
+        throw Error("--fidelity: {}", error.what());
+    }
+}
+
+double parse_tolerance(std::string_view text) {
+    constexpr double least = 0.6, most = 50;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= least && value <= most)) {
+        throw Error("--tolerance: expected a number of percent from {} to {}, got '{}'", least, most, text);
+    }
+    return value / 100;
 }
 
 bool is_same_file(const fs::path& a, const fs::path& b) {

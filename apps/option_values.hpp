@@ -9,6 +9,7 @@
 
 #include "model/camera.hpp"
 #include "model/workload.hpp"
+#include "study/fidelity_levels.hpp"
 #include "study/run_options.hpp"
 
 // What the words of a command line mean, for all commands that run scenes. All throw Error, in one line that
@@ -36,9 +37,19 @@ namespace rtu::apps {
 /// Every name must be a file that is there; without names, the built-in scene.
 [[nodiscard]] std::vector<study::SceneSource> parse_scenes(const std::vector<std::string>& names);
 
+/// The same for a command that may run without scenes: no names, no scenes; `builtin` is the built-in one.
+[[nodiscard]] std::vector<study::SceneSource> parse_scenes_or_builtin(const std::vector<std::string>& names);
+
 /// A file of rays: it must be there, and its format known or given.
 [[nodiscard]] study::RayInput parse_ray_input(const std::string& file, const std::string& format,
                                               const std::string& kind, bool is_forced);
+
+/// --fidelity: counts, analytic, sampled, cycle or auto.
+[[nodiscard]] study::FidelityLevel parse_fidelity(std::string_view text);
+
+/// --tolerance in percent, as a share: "2" is 0.02. From 0.6, below which no sample is known to be right,
+/// to 50.
+[[nodiscard]] double parse_tolerance(std::string_view text);
 
 [[nodiscard]] bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 

@@ -4,7 +4,6 @@
 #include "apps/option_values.hpp"
 #include "apps/standard_output.hpp"
 #include "model/error.hpp"
-#include "study/output_file.hpp"
 
 namespace rtu::apps {
 
@@ -27,8 +26,7 @@ void check_report_output(const ReportOutput& output, const std::vector<std::file
 }
 
 void write_report(const ReportOutput& output, const std::string& text, const std::string& json,
-                  const std::string& csv) {
-    std::vector<study::OutputFile> files;
+                  const std::string& csv, std::vector<study::OutputFile> files) {
     if (!output.json.empty() && output.json != "-") files.push_back({output.json, json});
     if (!output.csv.empty()) files.push_back({output.csv, csv});
     study::write_files(files);

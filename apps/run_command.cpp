@@ -13,11 +13,13 @@
 #include "apps/run_options.hpp"
 #include "apps/run_plan.hpp"
 #include "apps/standard_output.hpp"
+#include "study/fidelity_output.hpp"
 #include "study/output_file.hpp"
 #include "study/picture.hpp"
 #include "study/report_csv.hpp"
 #include "study/report_json.hpp"
 #include "study/report_text.hpp"
+#include "study/scene_estimate.hpp"
 #include "study/scene_run.hpp"
 
 namespace rtu::apps {
@@ -31,6 +33,9 @@ constexpr const char* footer =
     "  rtusim run bunny.glb --image out                    out/bunny_normal.png, out/bunny_box_tests.png\n"
     "  rtusim run cornell.glb --rays peer.rays7            rays of another program\n"
     "  rtusim run --set rtu.box.boxes_per_cycle=8          a machine with a wider box unit\n"
+    "  rtusim run bunny.glb --resolution 2048x2048 --fidelity auto --tolerance 2\n"
+    "                                                      an estimate within 2 %, in a fraction of the "
+    "time\n"
     "  rtusim run bunny.glb --json - | jq .total           pure JSON on standard output\n";
 
 std::vector<study::SceneReport> simulate(RunPlan& plan) {
@@ -60,6 +65,25 @@ void write_outputs(const RunPlan& plan, const std::vector<study::SceneReport>& r
     study::write_files(files);
 }
 
+// A level of fidelity below the cycle model: one estimate a workload.
+int run_estimates(RunPlan& plan) {
+    std::vector<study::FidelityRow> rows;
+    {
+        Progress progress;
+        for (const study::SceneSource& scene : plan.scenes) {
+            plan.options.progress = [&](std::string_view phase) { progress.show(scene.name(), phase); };
+            const auto found = study::estimate_scene(plan.options, scene, plan.fidelity, plan.tolerance);
+            rows.insert(rows.end(), found.begin(), found.end());
+        }
+    }
+    std::vector<study::OutputFile> files;
+    if (plan.json) files.push_back({*plan.json, study::estimates_json(rows)});
+    if (plan.csv) files.push_back({*plan.csv, study::rows_csv(rows)});
+    study::write_files(files);
+    print_all(plan.is_json_to_stdout ? study::estimates_json(rows) : study::estimates_text(rows));
+    return exit_done;
+}
+
 }  // namespace
 
 int run_scenes(const RunArguments& arguments) {
@@ -68,6 +92,7 @@ int run_scenes(const RunArguments& arguments) {
     std::optional<tbb::global_control> limit;
     if (plan.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, plan.threads);
 
+    if (plan.fidelity != study::FidelityLevel::Cycle) return run_estimates(plan);
     const std::vector<study::SceneReport> reports = simulate(plan);
     write_outputs(plan, reports);
     print_all(plan.is_json_to_stdout ? study::json_report(reports) : study::text_report(reports));
@@ -97,6 +122,7 @@ void add_run_command(CLI::App& app, std::function<int()>& command) {
     add_ray_input_options(*run_app, *arguments, rays);
     add_machine_options(*run_app, arguments->machine);
     add_output_options(*run_app, *arguments);
+    add_fidelity_options(*run_app, *arguments);
     add_host_options(*run_app, *arguments);
     run_app->callback([arguments, &command] { command = [arguments] { return run_scenes(*arguments); }; });
 }

@@ -71,6 +71,20 @@ void add_output_options(CLI::App& run, RunArguments& arguments) {
         "compare every hit with the reference traversal and with Embree;\na difference is exit code 3");
 }
 
+void add_fidelity_options(CLI::App& command, RunArguments& arguments) {
+    command
+        .add_option("--fidelity", arguments.fidelity,
+                    "cycle: every ray simulated; sampled: some, with a 95 % interval; analytic: none, a\n"
+                    "queueing model; counts: peak rates only; auto: the cheapest within the tolerance")
+        ->type_name("LEVEL")
+        ->capture_default_str();
+    command
+        .add_option("--tolerance", arguments.tolerance,
+                    "how far sampled and auto may be off, in % of MRPS, 0.6 to 50 (default 2)")
+        ->type_name("PCT")
+        ->check(is_not_empty());
+}
+
 void add_thread_option(CLI::App& run, RunArguments& arguments) {
     run.add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
         ->type_name("N")

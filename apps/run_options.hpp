@@ -16,6 +16,8 @@ void add_picture_options(CLI::App& command, RunArguments& arguments, CLI::Option
 void add_ray_input_options(CLI::App& command, RunArguments& arguments, CLI::Option* rays);
 /// --json, --csv, --image, --check.
 void add_output_options(CLI::App& command, RunArguments& arguments);
+/// --fidelity and --tolerance.
+void add_fidelity_options(CLI::App& command, RunArguments& arguments);
 /// --threads.
 void add_thread_option(CLI::App& command, RunArguments& arguments);
 /// --clock-mode and --threads.

@@ -35,6 +35,22 @@ void check_outputs(const RunPlan& plan) {
     }
 }
 
+// What an estimate cannot do is refused: only a run of every ray has hits, pictures and counters.
+void take_fidelity(const RunArguments& arguments, RunPlan& plan) {
+    plan.fidelity = parse_fidelity(arguments.fidelity);
+    if (!arguments.tolerance.empty()) {
+        const bool uses_it =
+            plan.fidelity == study::FidelityLevel::Sampled || plan.fidelity == study::FidelityLevel::Auto;
+        if (!uses_it) throw Error("--tolerance: needs --fidelity sampled or auto");
+        plan.tolerance = parse_tolerance(arguments.tolerance);
+    }
+    if (plan.fidelity == study::FidelityLevel::Cycle) return;
+    const std::string needs = "needs --fidelity cycle, which simulates every ray";
+    if (arguments.is_checked) throw Error("--check: {}", needs);
+    if (!arguments.image_folder.empty()) throw Error("--image: {}", needs);
+    if (arguments.clock_mode != "fast") throw Error("--clock-mode: {}", needs);
+}
+
 }  // namespace
 
 RunPlan make_run_plan(const RunArguments& arguments) {
@@ -68,6 +84,7 @@ RunPlan make_run_plan(const RunArguments& arguments) {
     if (!plan.is_json_to_stdout) plan.json = optional_path(arguments.json);
     plan.csv = optional_path(arguments.csv);
     plan.image_folder = optional_path(arguments.image_folder);
+    take_fidelity(arguments, plan);
     check_outputs(plan);
     return plan;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/machine_options.hpp"
+#include "study/fidelity_levels.hpp"
 #include "study/run_options.hpp"
 
 namespace rtu::apps {
@@ -31,6 +32,8 @@ struct RunArguments {
     std::string csv;
     std::string image_folder;
     bool is_checked = false;
+    std::string fidelity = "cycle";
+    std::string tolerance;  ///< percent; empty: 2
 };
 
 /// A run that is known to be possible as far as that can be told without reading the scenes.
@@ -38,6 +41,8 @@ struct RunPlan {
     study::RunOptions options;
     std::vector<study::SceneSource> scenes;
     std::vector<std::filesystem::path> inputs;  ///< every file that is read: no output may replace one
+    study::FidelityLevel fidelity = study::FidelityLevel::Cycle;
+    double tolerance = 0.02;
     unsigned threads = 0;
     bool is_json_to_stdout = false;
     std::optional<std::filesystem::path> json;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/exact_sum.hpp"
+#include "model/rounded_quotient.hpp"
 
 namespace rtu::model {
 
@@ -28,8 +29,8 @@ double length_1(const Vector& v) { return std::fabs(v[0]) + std::fabs(v[1]) + st
 // most eight roundings of 2^-53 on the way of a term, and the terms add up to twice that product at most.
 constexpr double error = 0x1p-48;
 
-// The summands of several u . (v x w), each product of three floats split into a double and its rounding
-// error, and their exact sum.
+// The exact sum of several u . (v x w), each product of three floats split into a double and its rounding
+// error.
 template <std::size_t Count>
 class TripleProducts {
   public:
@@ -41,22 +42,27 @@ class TripleProducts {
         }
         return *this;
     }
-    [[nodiscard]] double sum() const { return ExactSum(summands_).value(); }
+    [[nodiscard]] const ExactSum<12 * Count>& sum() const { return sum_; }
 
   private:
     void add_product(double a, double b) {
         const double product = a * b;
-        summands_[count_++] = product;
-        summands_[count_++] = std::fma(a, b, -product);
+        sum_.add(product);
+        sum_.add(std::fma(a, b, -product));
     }
-    std::array<double, 12 * Count> summands_{};
-    std::size_t count_ = 0;
+    ExactSum<12 * Count> sum_;
 };
 
 // d . ((p - o) x (q - o)) without its differences.
-[[gnu::noinline]] double expanded_span(Vec3 direction, Vec3 from, Vec3 to_p, Vec3 to_q) {
+[[gnu::noinline, gnu::cold]] ExactSum<36> expanded_span(Vec3 direction, Vec3 from, Vec3 to_p, Vec3 to_q) {
     const Vector d = widen(direction), o = widen(from), p = widen(to_p), q = widen(to_q);
     return TripleProducts<3>().add(d, p, q, 1).add(d, o, q, -1).add(d, p, o, -1).sum();
+}
+
+// (a - o) . ((b - a) x (c - a)) without its differences.
+[[gnu::noinline, gnu::cold]] ExactSum<48> expanded_height(Vec3 origin, const std::array<Vec3, 3>& corners) {
+    const Vector o = widen(origin), a = widen(corners[0]), b = widen(corners[1]), c = widen(corners[2]);
+    return TripleProducts<4>().add(a, b, c, 1).add(o, b, c, -1).add(o, c, a, -1).add(o, a, b, -1).sum();
 }
 
 // The sign of direction[axis] * (p - q)[other] - direction[other] * (p - q)[axis]: which end is farther along
@@ -83,38 +89,55 @@ ExactTriangle::ExactTriangle(const Line& line, const std::array<Vec3, 3>& corner
       seen_{Difference{corners[0], line.origin}, {corners[1], line.origin}, {corners[2], line.origin}},
       edges_{Difference{corners[1], corners[0]}, {corners[2], corners[1]}, {corners[0], corners[2]}} {}
 
-double ExactTriangle::edge_function(std::size_t edge) const {
+Bounded ExactTriangle::edge_function(std::size_t edge) const {
     const Difference &p = seen_[edge], &to_q = edges_[edge];
     const double value = dot(direction_, cross(p.vector, to_q.vector));
-    if (std::fabs(value) > error * direction_length_ * (p.size * to_q.size)) return value;
-    return expanded_span(line_.direction, line_.origin, corners_[edge], corners_[(edge + 1) % 3]);
+    const double bound = error * direction_length_ * (p.size * to_q.size);
+    if (std::fabs(value) > bound) return {value, bound};
+    return {expanded_edge_function(edge).value()};
 }
 
-Side ExactTriangle::side(std::size_t edge, double edge_function) const {
-    if (edge_function != 0) return edge_function > 0 ? Side::Positive : Side::Negative;
+Side ExactTriangle::side(std::size_t edge, Bounded edge_function) const {
+    const double value = edge_function.value;
+    if (value != 0) return value > 0 ? Side::Positive : Side::Negative;
     const Vec3 p = corners_[edge], q = corners_[(edge + 1) % 3];
     const std::size_t x = (line_.axis + 1U) % 3, y = (line_.axis + 2U) % 3;
     const int by_y = farther_end(line_, p, q, y);
     return Side(by_y != 0 ? by_y : farther_end(line_, q, p, x));
 }
 
-double ExactTriangle::distance() const {
-    constexpr double enough = 0x1p-19;  // an error of 2^-48 is then 2^-29 of the value
+std::optional<PlanePoint> ExactTriangle::point_beyond(float t_min,
+                                                      const std::array<Bounded, 3>& edge_functions) const {
     const Vector normal = cross(edges_[2].vector, edges_[0].vector);
-    const double size = enough * (edges_[2].size * edges_[0].size);
-    double along = dot(direction_, normal), before = dot(seen_[0].vector, normal);
-    if (!(std::fabs(along) > size * direction_length_)) {
-        along = expanded_span(line_.direction, corners_[0], corners_[1], corners_[2]);
-    }
-    if (!(std::fabs(before) > size * length_1(seen_[0].vector))) before = expanded_before();
-    return before / along;
+    const double size = error * (edges_[2].size * edges_[0].size);
+    Bounded along{dot(direction_, normal), size * direction_length_};
+    if (!(along.error < 0x1p-30 * std::fabs(along.value))) along = {expanded_along().value()};
+    const double inverse = 1 / along.value;
+    const Bounded before{dot(seen_[0].vector, normal), size * length_1(seen_[0].vector)};
+    const QuotientEnds t = quotient_ends(before, along, inverse);
+    if (!(t.high > t_min)) return std::nullopt;  // the surface that a secondary ray leaves, mostly
+    const auto barycentric = [&](std::size_t edge) {
+        const QuotientEnds ends = quotient_ends(edge_functions[edge], along, inverse);
+        return ends.are_equal() ? ends.low : exact_barycentric(edge);
+    };
+    const PlanePoint point{t.are_equal() ? t.low : exact_distance(), barycentric(2), barycentric(0)};
+    return point.t > t_min ? std::optional(point) : std::nullopt;
 }
 
-// (a - origin) . ((b - a) x (c - a)) without its differences.
-double ExactTriangle::expanded_before() const {
-    const Vector o = widen(line_.origin), a = widen(corners_[0]), b = widen(corners_[1]),
-                 c = widen(corners_[2]);
-    return TripleProducts<4>().add(a, b, c, 1).add(o, b, c, -1).add(o, c, a, -1).add(o, a, b, -1).sum();
+ExactSum<36> ExactTriangle::expanded_edge_function(std::size_t edge) const {
+    return expanded_span(line_.direction, line_.origin, corners_[edge], corners_[(edge + 1) % 3]);
+}
+
+ExactSum<36> ExactTriangle::expanded_along() const {
+    return expanded_span(line_.direction, corners_[0], corners_[1], corners_[2]);
+}
+
+[[gnu::noinline, gnu::cold]] float ExactTriangle::exact_distance() const {
+    return rounded_quotient(expanded_height(line_.origin, corners_), expanded_along());
+}
+
+[[gnu::noinline, gnu::cold]] float ExactTriangle::exact_barycentric(std::size_t edge) const {
+    return rounded_quotient(expanded_edge_function(edge), expanded_along());
 }
 
 }  // namespace rtu::model

@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
+#include "model/exact_sum.hpp"
+#include "model/rounded_quotient.hpp"
 #include "model/vec3.hpp"
 
 namespace rtu::model {
@@ -17,6 +20,11 @@ struct Line {
     std::uint8_t axis = 0;
 };
 
+/// Where a line meets a triangle's plane: origin + t direction, and (1 - u - v) a + u b + v c.
+struct PlanePoint {
+    float t, u, v;
+};
+
 /// A triangle and a line, both as they were given; all numbers may be any finite binary32. Binary64 decides
 /// where its error bound allows, exact expansions [SHE97] elsewhere. Edge i leads from corner i to the next.
 class ExactTriangle {
@@ -24,20 +32,22 @@ class ExactTriangle {
     ExactTriangle(const Line& line, const std::array<Vec3, 3>& corners);
 
     /// The volume that the line's direction spans with edge p -> q seen from its origin, direction . ((p -
-    /// origin) x (q - p)). Its sign, and whether it is zero, are exact; the magnitude is good to 2^-48
+    /// origin) x (q - p)). Its sign, and whether it is zero, are exact; the error is at most 2^-48
     /// |direction|_1 |p - origin|_max |q - p|_max.
-    [[nodiscard]] double edge_function(std::size_t edge) const;
+    [[nodiscard]] Bounded edge_function(std::size_t edge) const;
 
     /// The side of an edge on which the line passes, given its edge_function(): the sign of that. Where it is
     /// zero, the side of the line moved by (e, e^2), e infinitely small and positive, along the two axes that
     /// follow the line's. Exact. Reversing the edge reverses the answer, so of the two triangles at an edge
     /// exactly one owns the ray, and of a fan around a vertex as well.
-    [[nodiscard]] Side side(std::size_t edge, double edge_function) const;
+    [[nodiscard]] Side side(std::size_t edge, Bounded edge_function) const;
 
-    /// Where the line meets the plane of corners a, b, c, in units of the direction: (a - origin) . n /
-    /// (direction . n), n = (b - a) x (c - a). Good to 2^-28 of itself, with the exact sign. Requires a plane
-    /// that the line is not parallel to.
-    [[nodiscard]] double distance() const;
+    /// Where the line meets the plane of the corners a, b, c, if that is beyond `t_min`: t = (a - origin) . n
+    /// / (direction . n), n = (b - a) x (c - a), and u and v as the edge functions of c -> a and a -> b by
+    /// direction . n. Each is its exact value rounded once to binary32, nearest even; an exact zero is +0. t
+    /// may be infinite. Requires all three edge functions, and a plane that the line is not parallel to.
+    [[nodiscard]] std::optional<PlanePoint> point_beyond(float t_min,
+                                                         const std::array<Bounded, 3>& edge_functions) const;
 
   private:
     using Vector = std::array<double, 3>;
@@ -47,7 +57,10 @@ class ExactTriangle {
         Vector vector;
         double size;
     };
-    [[nodiscard]] double expanded_before() const;
+    [[nodiscard]] ExactSum<36> expanded_edge_function(std::size_t edge) const;
+    [[nodiscard]] ExactSum<36> expanded_along() const;
+    [[nodiscard]] float exact_distance() const;
+    [[nodiscard]] float exact_barycentric(std::size_t edge) const;
 
     Line line_;
     std::array<Vec3, 3> corners_;

@@ -32,32 +32,31 @@ Reach larger(Reach a, Reach b) { return {std::max(a.across, b.across), std::max(
 
 float edge_function(Sheared p, Sheared q) { return p.x * q.y - p.y * q.x; }
 
-// Whether the edge functions of a triangle's three sides have different signs beyond doubt. The bound on
-// their rounding errors is derived in docs/model.md; one so large that products may have overflowed proves
-// nothing.
-bool is_missed(float u, float v, float w, Reach reach) {
+enum class FirstPass : std::uint8_t { Missed, Inside, Open };
+
+// What the signs of a triangle's edge functions say beyond doubt. The bound on their rounding errors is
+// derived in docs/model.md; one so large that products may have overflowed proves nothing.
+FirstPass first_pass(float u, float v, float w, Reach reach) {
     constexpr float scale = 0x1p-20F, smallest = 0x1p-126F, largest = 0x1p100F;
     const float bound =
         scale * (reach.across + scale * reach.along) * (reach.across + reach.along) + smallest;
     const float low = std::min(std::min(u, v), w), high = std::max(std::max(u, v), w);
-    return low < -bound && high > bound && bound < largest;
+    if (low < -bound && high > bound && bound < largest) return FirstPass::Missed;
+    return (low > bound || high < -bound) && bound < largest ? FirstPass::Inside : FirstPass::Open;
 }
 
-// The weights cannot add up to zero when the sides agree.
+// The plane is not parallel to the ray when the sides agree: the edge functions add up to direction . n.
 std::optional<Hit> intersect(const std::array<Vec3, 3>& corners, const RaySetup& ray) {
     const ExactTriangle triangle({ray.origin, ray.direction, ray.kz}, corners);
-    std::array<double, 3> weights{};
+    std::array<Bounded, 3> edge_functions{};
     std::array<Side, 3> sides{};
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-        const std::size_t opposite = (corner + 1) % 3;
-        weights[corner] = triangle.edge_function(opposite);
-        sides[corner] = triangle.side(opposite, weights[corner]);
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+        edge_functions[edge] = triangle.edge_function(edge);
+        sides[edge] = triangle.side(edge, edge_functions[edge]);
     }
     if (sides[0] != sides[1] || sides[1] != sides[2] || sides[0] == Side::Neither) return std::nullopt;
-    const auto t = float(triangle.distance());
-    if (!(t > ray.t_min)) return std::nullopt;  // the surface that a secondary ray leaves, mostly
-    const double area = weights[0] + weights[1] + weights[2];
-    return Hit{t, float(weights[1] / area), float(weights[2] / area)};
+    const auto point = triangle.point_beyond(ray.t_min, edge_functions);
+    return point ? std::optional(Hit{point->t, point->u, point->v}) : std::nullopt;
 }
 
 // In the file's order, so that a hit does not depend on how its triangle is stored.
@@ -68,9 +67,11 @@ std::array<Vec3, 3> corners_of(const LeafPair& pair, std::uint32_t triangle) {
     return {stored[order.stored_corner(0)], stored[order.stored_corner(1)], stored[order.stored_corner(2)]};
 }
 
-void intersect(const LeafPair& pair, std::uint32_t triangle, const RaySetup& ray, PairHits& result) {
-    if (pair.is_degenerate(triangle)) return;
+void second_pass(const LeafPair& pair, std::uint32_t triangle, FirstPass first, const RaySetup& ray,
+                 PairHits& result) {
+    if (first == FirstPass::Missed || pair.is_degenerate(triangle)) return;
     ++result.exact_tests;
+    result.side_tests += first == FirstPass::Open ? 1 : 0;
     const auto hit = intersect(corners_of(pair, triangle), ray);
     if (!hit) return;
     result.is_pierced[triangle] = true;
@@ -88,13 +89,15 @@ PairHits test_pair(const LeafPair& pair, const RaySetup& ray) {
     const Reach shared = larger(reach(a), reach(c));
 
     PairHits result;
-    if (!is_missed(edge_function(c, b), common, edge_function(b, a), larger(shared, reach(b))))
-        intersect(pair, 0, ray, result);
+    second_pass(pair, 0,
+                first_pass(edge_function(c, b), common, edge_function(b, a), larger(shared, reach(b))), ray,
+                result);
     if (!pair.has_second()) return result;
 
     const Sheared d = shear(pair.vertices[3], ray);
-    if (!is_missed(edge_function(d, c), edge_function(a, d), -common, larger(shared, reach(d))))
-        intersect(pair, 1, ray, result);
+    second_pass(pair, 1,
+                first_pass(edge_function(d, c), edge_function(a, d), -common, larger(shared, reach(d))), ray,
+                result);
     return result;
 }
 

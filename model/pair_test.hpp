@@ -14,6 +14,7 @@ struct PairHits {
     std::array<Hit, 2> hits{};
     std::array<bool, 2> is_pierced{};
     std::uint32_t exact_tests = 0;  ///< triangles that the first pass let through, 0 to 2
+    std::uint32_t side_tests = 0;   ///< of those, the ones that it could not prove to be pierced
 };
 
 /// Tests a ray against the two triangles of a pair; both sides count. Two passes:
@@ -24,8 +25,7 @@ struct PairHits {
 /// 2. What is left is decided exactly, on the numbers as they were given: a triangle is pierced when the ray
 ///    passes its three edges on the same side, and a ray exactly through an edge or a vertex belongs to one
 ///    triangle only (ExactTriangle::side()). So no closed mesh leaks or is hit twice, and a triangle that is
-///    degenerate or seen edge-on is never pierced. t is the exact distance but for its rounding; it, u and v
-///    depend on the triangle and the ray only.
+///    degenerate or seen edge-on is never pierced. t, u and v are their exact values, each rounded once.
 ///
 /// A pair gives bit for bit what its triangles give one by one.
 [[nodiscard]] PairHits test_pair(const LeafPair& pair, const RaySetup& ray);

@@ -61,10 +61,13 @@ bool is_better(const Hit& hit, const Closest& closest) {
 
 PairVisit update_closest(Closest& closest, const LeafPair& pair, const RaySetup& ray) {
     const PairHits found = test_pair(pair, ray);
+    PairVisit visit{pair.has_second() ? 2U : 1U, found.exact_tests, 0, found.side_tests};
     for (std::size_t i = 0; i < 2; ++i) {
-        if (found.is_pierced[i] && is_better(found.hits[i], closest)) closest = {found.hits[i], true};
+        if (!found.is_pierced[i] || !is_better(found.hits[i], closest)) continue;
+        closest = {found.hits[i], true};
+        ++visit.better_hits;
     }
-    return {pair.has_second() ? 2U : 1U, found.exact_tests};
+    return visit;
 }
 
 // The whole traversal of one ray, with the tree's width known to the compiler and the ray's constants in

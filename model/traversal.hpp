@@ -86,6 +86,8 @@ std::uint32_t visit_node(Traversal& traversal, const MemoryImage& image);
 struct PairVisit {
     std::uint32_t triangle_tests = 0;
     std::uint32_t exact_tests = 0;  ///< of those, what the first pass let through: see test_pair()
+    std::uint32_t better_hits = 0;  ///< of those, what became the closest hit, each in its turn
+    std::uint32_t side_tests = 0;   ///< of the exact tests, those whose sides the first pass left open
 };
 
 /// Tests pair `index` of `current` (a leaf) and keeps the nearer hit; of equal t the lowest primitive id

@@ -75,6 +75,26 @@ std::optional<Ray> make_ray(const WorkloadSetting& setting, WorkloadKind kind, s
     return secondary_ray(setting, kind, pixel, *point);
 }
 
+// The rays of `pixel_count` pixels, of which `pixel_at` tells each.
+template <class PixelAt>
+Workload make_workload_of(WorkloadKind kind, const WorkloadSetting& setting, std::uint32_t pixel_count,
+                          PixelAt pixel_at) {
+    std::vector<std::optional<Ray>> rays(pixel_count);
+    for_each_range<std::uint32_t>(pixel_count, 256, [&](const auto& range) {
+        TraversalStack scratch;
+        for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
+            rays[i] = make_ray(setting, kind, pixel_at(i), scratch);
+        }
+    });
+    Workload workload{std::string(to_string(kind)), ray_kind(kind), {}, {}};
+    for (std::uint32_t i = 0; i < pixel_count; ++i) {
+        if (!rays[i]) continue;
+        workload.rays.push_back(*rays[i]);
+        workload.pixels.push_back(pixel_at(i));
+    }
+    return workload;
+}
+
 }  // namespace
 
 WorkloadKind parse_workload_kind(std::string_view text) {
@@ -103,21 +123,14 @@ WorkloadSetting::WorkloadSetting(const TriangleMesh& scene_mesh, const MemoryIma
 
 Workload make_workload(WorkloadKind kind, const WorkloadSetting& setting, std::uint32_t begin_pixel,
                        std::uint32_t end_pixel) {
-    const std::uint32_t pixel_count = end_pixel - begin_pixel;
-    std::vector<std::optional<Ray>> rays(pixel_count);
-    for_each_range<std::uint32_t>(pixel_count, 256, [&](const auto& range) {
-        TraversalStack scratch;
-        for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
-            rays[i] = make_ray(setting, kind, begin_pixel + i, scratch);
-        }
-    });
-    Workload workload{std::string(to_string(kind)), ray_kind(kind), {}, {}};
-    for (std::uint32_t i = 0; i < pixel_count; ++i) {
-        if (!rays[i]) continue;
-        workload.rays.push_back(*rays[i]);
-        workload.pixels.push_back(begin_pixel + i);
-    }
-    return workload;
+    return make_workload_of(kind, setting, end_pixel - begin_pixel,
+                            [begin_pixel](std::uint32_t i) { return begin_pixel + i; });
+}
+
+Workload make_workload(WorkloadKind kind, const WorkloadSetting& setting,
+                       std::span<const std::uint32_t> pixels) {
+    return make_workload_of(kind, setting, std::uint32_t(pixels.size()),
+                            [pixels](std::uint32_t i) { return pixels[i]; });
 }
 
 Workload make_workload(WorkloadKind kind, const TriangleMesh& mesh, const MemoryImage& image,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,5 +56,9 @@ struct WorkloadSetting {
 /// another, are the whole workload, so that it need not fit into memory.
 [[nodiscard]] Workload make_workload(WorkloadKind kind, const WorkloadSetting& setting,
                                      std::uint32_t begin_pixel, std::uint32_t end_pixel);
+
+/// The rays that start in some pixels, in their order.
+[[nodiscard]] Workload make_workload(WorkloadKind kind, const WorkloadSetting& setting,
+                                     std::span<const std::uint32_t> pixels);
 
 }  // namespace rtu::model

@@ -39,8 +39,9 @@ Activity BoxUnit::issue(Cycle now) {
         const SlotToken token{nodes_in->front().tag};
         RayWalk& walk = slots_[token.slot].walk;
         const std::uint32_t boxes = walk.child_count();
+        const std::uint32_t lanes = config_.packs_nodes != 0 ? boxes : std::max(boxes, walk.node_width());
         const bool has_all_lanes = free_lanes == config_.boxes_per_cycle;
-        if (boxes > free_lanes && !has_all_lanes) break;
+        if (lanes > free_lanes && !has_all_lanes) break;
         nodes_in->pop(now);
         walk.visit_node();
         ++counters_.node_visits;
@@ -48,7 +49,7 @@ Activity BoxUnit::issue(Cycle now) {
         const std::uint32_t last_cycle = (boxes - 1) / config_.boxes_per_cycle;
         lanes_free_at_ = now + last_cycle + 1;
         pipeline_.push(now + last_cycle, token);
-        free_lanes -= std::min(free_lanes, boxes);
+        free_lanes -= std::min(free_lanes, lanes);
     }
     if (free_lanes < config_.boxes_per_cycle) {
         ++counters_.issue_cycles;

@@ -15,7 +15,8 @@ namespace rtu::sim {
 
 /// Tests the children of fetched nodes. `boxes_per_cycle` lanes take nodes in order: as many whole nodes a
 /// cycle as the lanes hold, or one node over several cycles when it has more children than there are lanes. A
-/// result leaves `latency_cycles` after the cycle in which its last child entered.
+/// node takes as many lanes as a node can have children, or with `packs_nodes` as it has. A result leaves
+/// `latency_cycles` after the cycle in which its last child entered.
 class BoxUnit final : public ClockedUnit {
   public:
     BoxUnit(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu::Box& config,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -44,6 +46,26 @@ class Cache final : public ClockedUnit {
     sc_core::sc_port<PushIf<MemoryRequest>> below_out{"below_out"};
     sc_core::sc_port<Fifo<MemoryReply>> fills_in{"fills_in"};  ///< replies to below_out's reads, in any order
 
+    /// Puts the bytes into the cache in no time and uncounted, as a read long ago would have: for warming it
+    /// up between two cycles. Calls `missing(address, size_bytes)` for each run of sectors of a line that was
+    /// not there; dirty lines that make room are forgotten.
+    template <class F>
+    void warm(std::uint64_t address, std::uint32_t size_bytes, F missing) {
+        const std::uint64_t last = address + size_bytes - 1;
+        for (std::uint64_t line = address >> line_shift_; line <= last >> line_shift_; ++line) {
+            const std::uint64_t base = line << line_shift_;
+            const std::uint64_t from = std::max(address, base);
+            const std::uint64_t to = std::min(last, base + (std::uint64_t(1) << line_shift_) - 1);
+            const SectorMask absent =
+                warm_line(std::uint32_t(line), std::uint32_t((from - base) >> sector_shift_),
+                          std::uint32_t((to - base) >> sector_shift_));
+            if (absent == 0) continue;
+            const auto first = std::uint32_t(std::countr_zero(absent));
+            missing(base + (std::uint64_t(first) << sector_shift_),
+                    std::uint32_t(std::bit_width(absent) - int(first)) << sector_shift_);
+        }
+    }
+
     [[nodiscard]] const CacheCounters& counters() const { return counters_; }
     [[nodiscard]] Cycle next_event(Cycle now) const override;
     [[nodiscard]] std::string describe() const override;
@@ -77,6 +99,8 @@ class Cache final : public ClockedUnit {
         Refusal refusal = nullptr;
     };
 
+    [[nodiscard]] SectorMask warm_line(std::uint32_t line_number, std::uint32_t first_sector,
+                                       std::uint32_t last_sector);
     void end_of_elaboration() override;
     void send_replies(Cycle now);
     void send_write_back(Cycle now);

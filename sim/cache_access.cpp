@@ -137,6 +137,23 @@ Cache::Refusal Cache::write_line(const LineAccess& access) {
     return nullptr;
 }
 
+// The sectors that were not there, nor on their way.
+SectorMask Cache::warm_line(std::uint32_t line_number, std::uint32_t first_sector,
+                            std::uint32_t last_sector) {
+    const SectorMask wanted = sector_range(first_sector, last_sector);
+    std::optional<std::uint32_t> entry = tags_.find(line_number);
+    if (!entry) {
+        entry = tags_.victim(line_number);
+        if (!entry) return wanted;  // every way waits for a fill
+        tags_.replace(*entry, line_number);
+    }
+    CacheTags::Line& line = tags_[*entry];
+    const SectorMask absent = wanted & ~(line.valid | line.pending);
+    line.valid |= absent;
+    tags_.touch(*entry);
+    return absent;
+}
+
 Cache::Allocation Cache::allocate(std::uint32_t line_number) {
     const std::optional<std::uint32_t> victim = tags_.victim(line_number);
     if (!victim) return {.refusal = &CacheCounters::set_full_cycles};

@@ -57,6 +57,8 @@ ClockDomain::~ClockDomain() = default;
 Cycle ClockDomain::run(std::function<bool()> is_done, std::function<void()> on_batch) {
     is_done_ = std::move(is_done);
     on_batch_ = std::move(on_batch);
+    if (has_started_ && mode_ == ClockMode::Fast) next_batch_.notify(sc_core::SC_ZERO_TIME);
+    has_started_ = true;
     sc_core::sc_start();
     if (failure_) std::rethrow_exception(failure_);
     return now_;

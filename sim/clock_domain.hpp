@@ -25,9 +25,9 @@ class ClockDomain final : public sc_core::sc_module {
     ClockDomain(sc_core::sc_module_name name, ClockMode mode, Cycle watchdog_cycles);
     ~ClockDomain() override;
 
-    /// Simulates until `is_done()` holds at the end of a cycle; returns the number of cycles simulated.
-    /// `on_batch()` is called now and then, to tell how far it is. Throws std::logic_error with every unit's
-    /// state when nothing moves for `watchdog_cycles`.
+    /// Simulates until `is_done()` holds at the end of a cycle; returns the number of cycles simulated so
+    /// far. Called again, it goes on from there. `on_batch()` is called now and then, to tell how far it is.
+    /// Throws std::logic_error with every unit's state when nothing moves for `watchdog_cycles`.
     Cycle run(std::function<bool()> is_done, std::function<void()> on_batch = {});
 
     void note_push() { ++items_, ++pushes_; }
@@ -53,6 +53,7 @@ class ClockDomain final : public sc_core::sc_module {
     sc_core::sc_event next_batch_;
     std::unique_ptr<sc_core::sc_clock> clock_;
     std::exception_ptr failure_;
+    bool has_started_ = false;
     Cycle now_ = 0;
     std::uint64_t items_ = 0;   // in all channels
     std::uint64_t pushes_ = 0;  // ever

@@ -40,8 +40,13 @@ struct Config {
         std::uint32_t results_per_cycle = 2;  ///< unit results that the scheduler takes a cycle
         std::uint32_t fetches_per_cycle = 2;  ///< requests that it sends to the L1 a cycle
 
+        struct Scheduler {
+            std::uint32_t latency_cycles = 3;  ///< from taking a result to what follows from it
+        } scheduler;
+
         struct Box {
             std::uint32_t boxes_per_cycle = 4;
+            std::uint32_t packs_nodes = 0;  ///< 1: idle lanes of a node with few children take the next node
             std::uint32_t latency_cycles = 12;
         } box;
 
@@ -49,8 +54,13 @@ struct Config {
             PairMode mode = PairMode::DualShared;
             std::uint32_t testers = 1;
             std::uint32_t ii_cycles = 1;
-            std::uint32_t latency_cycles = 22;
+            std::uint32_t latency_cycles = 33;
             std::uint32_t replay_cycles = 1;
+            std::uint32_t hit_units = 8;  ///< behind the first pass of a tester; 0: all is in its pipeline
+            std::uint32_t hit_cycles = 92;
+            std::uint32_t reject_cycles = 56;
+            std::uint32_t side_cycles = 111;
+            std::uint32_t entries = 40;
         } pair;
     } rtu;
 

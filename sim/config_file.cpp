@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t max_file_bytes = 1U << 20;
 
-/// A dotted key nests a table for every second character, and the parser's tables are destroyed recursively.
 constexpr std::size_t max_line_bytes = 1024;
 
 struct Statement {
@@ -100,6 +99,8 @@ class Reader {
     std::vector<Statement> statements_;
 };
 
+}  // namespace
+
 void check_line_lengths(std::string_view text, const std::string& file) {
     std::size_t line = 1;
     std::size_t begin = 0;
@@ -113,8 +114,6 @@ void check_line_lengths(std::string_view text, const std::string& file) {
         ++line;
     }
 }
-
-}  // namespace
 
 std::vector<ConfigAssignment> parse_config_toml(std::string_view text, const std::string& file) try {
     check_line_lengths(text, file);

@@ -19,6 +19,10 @@ namespace rtu::sim {
 /// that is not TOML (a repeated key included) and for values that no key can have.
 [[nodiscard]] std::vector<ConfigAssignment> parse_config_toml(std::string_view text, const std::string& file);
 
+/// Throws Error, naming the line, for a line that is longer than any in a file of settings: a dotted key
+/// nests a table for every second character, and the parser destroys tables recursively.
+void check_line_lengths(std::string_view text, const std::string& file);
+
 /// The statements of a file. Throws Error when it cannot be read or is larger than any configuration.
 [[nodiscard]] std::vector<ConfigAssignment> read_config_file(const std::filesystem::path& path);
 

@@ -50,6 +50,10 @@ struct PairCounters {
     std::uint64_t exact_tests = 0;
     std::uint64_t replays = 0;
     std::uint64_t tester_cycles = 0;
+    std::uint64_t standing_cycles = 0;
+    std::uint64_t survivors = 0;
+    std::uint64_t hit_unit_cycles = 0;
+    std::uint64_t hit_wait_cycles = 0;
     friend bool operator==(const PairCounters&, const PairCounters&) = default;
 };
 
@@ -61,6 +65,13 @@ inline constexpr std::array pair_counter_rows = std::to_array<CounterRow<PairCou
     {"replays", "replays", "pairs with two exact tests and one unit for them", &PairCounters::replays},
     {"tester_cycles", "cycles", "cycles that testers were held, over all testers",
      &PairCounters::tester_cycles},
+    {"standing_cycles", "cycles", "cycles that first passes stood still, over all testers",
+     &PairCounters::standing_cycles},
+    {"survivors", "leaves", "leaves that hit units were given", &PairCounters::survivors},
+    {"hit_unit_cycles", "cycles", "cycles that hit units were held, over all hit units",
+     &PairCounters::hit_unit_cycles},
+    {"hit_wait_cycles", "cycles", "cycles that survivors waited for a hit unit, over all survivors",
+     &PairCounters::hit_wait_cycles},
 });
 static_assert(has_row_for_every_field(pair_counter_rows));
 

@@ -46,8 +46,10 @@ class Fifo final : public sc_core::sc_object, public PushIf<T> {
         return std::move(items_[head_++ & mask_]);
     }
 
-    [[nodiscard]] bool can_push(Cycle now) const override {
-        return tail_ - (last_pop_ == now ? head_at_start_ : head_) < depth_;
+    [[nodiscard]] bool can_push(Cycle now) const override { return space(now) > 0; }
+    /// Items that can still be pushed in this cycle.
+    [[nodiscard]] std::size_t space(Cycle now) const {
+        return depth_ - (tail_ - (last_pop_ == now ? head_at_start_ : head_));
     }
     void push(Cycle now, const T& item) override {
         RTU_CHECK(can_push(now), "{}: push to a full channel at cycle {}", name(), now);

@@ -17,16 +17,11 @@ namespace rtu::sim {
 
 namespace {
 
-constexpr std::uint64_t page_bytes = 4096;
-
-std::uint64_t round_up(std::uint64_t value, std::uint64_t to) { return (value + to - 1) / to * to; }
-
-// Each RTU's stacks lie behind the image, a whole number of lines a slot.
-StackRegion stack_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
-    const std::uint64_t slot_bytes = round_up(
-        (model::stack_capacity(image) + spill_block_entries) * stack_entry_bytes, config.l1.line_bytes);
-    const std::uint64_t first_slot = std::uint64_t(rtu) * config.rtu.ray_slots;
-    return {round_up(image.size_bytes(), page_bytes) + first_slot * slot_bytes, slot_bytes};
+// Each RTU's stacks lie behind those of the RTUs before it.
+model::StackRegion stack_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
+    model::StackRegion region = model::stack_region(image, config.rtu.stack_entries, config.l1.line_bytes);
+    region.base_address += std::uint64_t(rtu) * config.rtu.ray_slots * region.slot_bytes;
+    return region;
 }
 
 // All RTUs, the memory that they share, and the two ends that rays come from and go to.
@@ -49,16 +44,51 @@ class Machine {
         const auto tell = [&] {
             if (progress) progress(source_.share());
         };
-        // The run cannot end before its first cycle, so a workload without rays gets none.
-        const auto is_done = [this] { return source_.is_done() && sink_.received() == source_.ray_count(); };
-        if (!source_.is_done()) result.cycles = domain_.run(is_done, tell);
+        advance([] { return false; }, tell);
+        result.cycles = cycles_;
         result.ray_count = source_.ray_count();
         collect(result);
         check(result);
         return result;
     }
 
+    void advance_to(std::uint64_t count) {
+        const auto is_there = [this, count] { return source_.ray_count() >= count; };
+        if (!is_there()) advance(is_there, {});
+    }
+
+    [[nodiscard]] MachineMark mark() const {
+        MachineMark mark{.cycles = cycles_, .rays = source_.ray_count(), .counts = {}};
+        for (const auto& node : nodes_) {
+            const Rtu& rtu = node->rtu;
+            mark.counts += counts_of(rtu);
+            mark.leaf_visits += rtu.pair.counters().leaf_visits;
+            mark.l1_misses += rtu.l1.counters().misses;
+        }
+        mark.l2_misses = memory_->l2_misses();
+        return mark;
+    }
+
+    void warm(std::uint32_t rtu, std::uint64_t address, std::uint32_t size_bytes) {
+        nodes_[rtu]->rtu.l1.warm(address, size_bytes, [this](std::uint64_t first, std::uint32_t bytes) {
+            memory_->warm(first, bytes);
+        });
+    }
+
   private:
+    // Until all rays have returned, or `is_there()`. The run cannot end before its first cycle, so a workload
+    // without rays gets none.
+    void advance(const std::function<bool()>& is_there, const std::function<void()>& tell) {
+        const auto is_done = [this] { return source_.is_done() && sink_.received() == source_.ray_count(); };
+        if (is_done()) return;
+        cycles_ = domain_.run([&] { return is_there() || is_done(); }, tell);
+    }
+
+    static model::TraversalCounts counts_of(const Rtu& rtu) {
+        return {rtu.box.counters().node_visits, rtu.box.counters().box_tests, rtu.pair.counters().pair_tests,
+                rtu.pair.counters().triangle_tests};
+    }
+
     // An RTU, and its way to the shared memory and back.
     struct Node {
         Node(const std::string& name, ClockDomain& domain, const Config& config, std::uint32_t index,
@@ -98,8 +128,7 @@ class Machine {
                                     counter_values(pair_counter_rows, rtu.pair.counters())});
             result.memory.push_back({prefix + "l1", rtu.l1.cycle_account(),
                                      counter_values(cache_counter_rows, rtu.l1.counters())});
-            result.counts += {rtu.box.counters().node_visits, rtu.box.counters().box_tests,
-                              rtu.pair.counters().pair_tests, rtu.pair.counters().triangle_tests};
+            result.counts += counts_of(rtu);
         }
         result.units.push_back({"hit_sink", sink_.cycle_account(), {}});
         std::ranges::move(memory_->results(), std::back_inserter(result.memory));
@@ -133,6 +162,7 @@ class Machine {
     HitSink sink_;
     std::vector<std::unique_ptr<Node>> nodes_;
     std::unique_ptr<SharedMemory> memory_;
+    Cycle cycles_ = 0;
 };
 
 }  // namespace
@@ -154,6 +184,32 @@ MachineResult simulate(const Config& config, const model::MemoryImage& image,
         config, image, supply, kind, [&hits](const auto& hit) { hits.push_back(hit); }, mode, progress);
     result.hits = std::move(hits);
     return result;
+}
+
+class MachineSession::Parts {
+  public:
+    Parts(const Config& config, const model::MemoryImage& image, RaySupply& rays, model::RayKind kind)
+        : machine(
+              config, image, rays, kind, [](const std::optional<model::Hit>&) {}, ClockMode::Fast) {}
+    Machine machine;
+};
+
+MachineSession::MachineSession(const Config& config, const model::MemoryImage& image, RaySupply& rays,
+                               model::RayKind kind) {
+    start_fresh_kernel();
+    parts_ = std::make_unique<Parts>(config, image, rays, kind);
+}
+
+MachineSession::~MachineSession() = default;
+
+void MachineSession::advance_to(std::uint64_t count) { parts_->machine.advance_to(count); }
+
+void MachineSession::finish() { static_cast<void>(parts_->machine.run({})); }
+
+MachineMark MachineSession::mark() const { return parts_->machine.mark(); }
+
+void MachineSession::warm(std::uint32_t rtu, std::uint64_t address, std::uint32_t size_bytes) {
+    parts_->machine.warm(rtu, address, size_bytes);
 }
 
 }  // namespace rtu::sim

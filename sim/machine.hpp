@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -74,5 +75,39 @@ using SimulationProgress = std::function<void(double share)>;
                                      std::span<const model::Ray> rays, model::RayKind kind,
                                      ClockMode mode = ClockMode::Fast,
                                      const SimulationProgress& progress = {});
+
+/// How far a machine has come: everything since its first cycle, over all RTUs.
+struct MachineMark {
+    Cycle cycles = 0;
+    std::uint64_t rays = 0;  ///< handed to the RTUs
+    model::TraversalCounts counts;
+    std::uint64_t leaf_visits = 0;
+    std::uint64_t l1_misses = 0;
+    std::uint64_t l2_misses = 0;
+};
+
+/// A machine that can be stopped, looked at, have its caches warmed and go on: for measuring parts of a long
+/// run. Starts from cold caches, in a new SystemC kernel; there may be one at a time. What is on its way when
+/// it is destroyed is dropped. Its caches and image are those of simulate(); so are its requirements.
+class MachineSession {
+  public:
+    MachineSession(const Config& config, const model::MemoryImage& image, RaySupply& rays,
+                   model::RayKind kind);
+    MachineSession(const MachineSession&) = delete;
+    MachineSession& operator=(const MachineSession&) = delete;
+    ~MachineSession();
+
+    /// Goes on to the cycle in which ray `count` (from 1) is handed over, or in which the last ray returns.
+    void advance_to(std::uint64_t count);
+    /// Goes on until the last ray has returned, and checks what simulate() checks.
+    void finish();
+    [[nodiscard]] MachineMark mark() const;
+    /// Puts what a read of RTU `rtu` would bring into its L1 and the L2, in no time.
+    void warm(std::uint32_t rtu, std::uint64_t address, std::uint32_t size_bytes);
+
+  private:
+    class Parts;
+    std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace rtu::sim

@@ -8,19 +8,23 @@ namespace rtu::sim {
 
 RayScheduler::RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu& config,
                            const model::MemoryImage& image, model::RayKind kind, RaySlots& slots,
-                           StackRegion region)
+                           model::StackRegion region)
     : ClockedUnit(name, domain),
       config_(config),
-      spill_block_(std::min(spill_block_entries, config.stack_entries)),
+      spill_block_(model::spill_block_size(config.stack_entries)),
       node_bytes_(model::MemoryImage::node_bytes(image.width)),
       image_(image),
       kind_(kind),
       slots_(slots),
-      region_(region) {
+      region_(region),
+      deciding_(config.scheduler.latency_cycles,
+                std::size_t(config.scheduler.latency_cycles + 1) * config.results_per_cycle) {
     for (auto slot = std::uint32_t(slots.size()); slot-- > 0;) free_slots_.push_back(slot);
 }
 
-Cycle RayScheduler::next_event(Cycle now) const { return queued_.empty() ? no_cycle : now + 1; }
+Cycle RayScheduler::next_event(Cycle now) const {
+    return queued_.empty() ? std::max(now + 1, deciding_.ready_at()) : now + 1;
+}
 
 std::string RayScheduler::describe() const {
     return fmt::format("{} of {} slots in use, {} requests queued, {} box and {} pair results waiting",
@@ -32,8 +36,8 @@ void RayScheduler::check_drained() const {
     const SchedulerCounters& c = counters_;
     RTU_CHECK(c.rays_accepted == c.rays_finished, "{}: {} rays in, {} out", name(), c.rays_accepted,
               c.rays_finished);
-    RTU_CHECK(free_slots_.size() == slots_.size() && queued_.empty(), "{}: not drained: {}", name(),
-              describe());
+    RTU_CHECK(free_slots_.size() == slots_.size() && queued_.empty() && deciding_.is_empty(),
+              "{}: not drained: {}", name(), describe());
     RTU_CHECK(c.reloaded_entries == c.spilled_entries ||
                   (kind_ == model::RayKind::AnyHit && c.reloaded_entries < c.spilled_entries),
               "{}: {} stack entries spilled, {} read back", name(), c.spilled_entries, c.reloaded_entries);
@@ -45,36 +49,52 @@ bool RayScheduler::has_work(Cycle now) const {
 }
 
 Activity RayScheduler::tick(Cycle now) {
-    const bool has_retired = retire(now);
+    const bool has_taken = take(now);
+    const bool has_decided = decide(now);
     const bool has_issued = issue(now);
     const bool has_accepted = accept(now);
-    if (has_retired || has_issued || has_accepted) return Activity::Busy;
+    if (has_taken || has_decided || has_issued || has_accepted) return Activity::Busy;
     return has_work(now) ? Activity::Blocked : Activity::Waiting;
 }
 
-bool RayScheduler::retire(Cycle now) {
+bool RayScheduler::take(Cycle now) {
     std::uint32_t taken = 0;
     // The one that is asked first changes whenever something was taken, so that none can starve.
     for (std::uint32_t i = 0; i < reply_channel_count; ++i) {
         const std::uint32_t source = (first_source_ + i) % reply_channel_count;
-        while (taken < config_.results_per_cycle && hits_out->can_push(now)) {
-            if (source == 0 && pair_results_in->can_pop(now)) {
-                advance(pair_results_in->pop(now).slot, now);
-            } else if (source == 1 && box_results_in->can_pop(now)) {
-                advance(box_results_in->pop(now).slot, now);
-            } else if (source == 2 && stack_blocks_in->can_pop(now)) {
-                const std::uint32_t slot = stack_blocks_in->pop(now).tag;
-                slots_[slot].spilled -= spill_block_;
-                counters_.reloaded_entries += spill_block_;
-                advance(slot, now);
-            } else {
-                break;
-            }
+        while (taken < config_.results_per_cycle && can_take_more(now)) {
+            const std::optional<Result> result = next_result(source, now);
+            if (!result) break;
+            deciding_.push(now, *result);
             ++taken;
+            if (result->is_stack_block) break;  // a wide word: one a cycle
         }
     }
     if (taken > 0) first_source_ = (first_source_ + 1) % reply_channel_count;
     return taken > 0;
+}
+
+// Every ray under way may hand a hit out.
+bool RayScheduler::can_take_more(Cycle now) const { return hits_out->space(now) > deciding_.size(); }
+
+std::optional<RayScheduler::Result> RayScheduler::next_result(std::uint32_t source, Cycle now) {
+    if (source == 0 && pair_results_in->can_pop(now)) return Result{pair_results_in->pop(now).slot};
+    if (source == 1 && box_results_in->can_pop(now)) return Result{box_results_in->pop(now).slot};
+    if (source == 2 && stack_blocks_in->can_pop(now)) return Result{stack_blocks_in->pop(now).tag, true};
+    return std::nullopt;
+}
+
+bool RayScheduler::decide(Cycle now) {
+    if (!deciding_.is_ready(now)) return false;
+    while (deciding_.is_ready(now)) {
+        const Result result = deciding_.pop();
+        if (result.is_stack_block) {
+            slots_[result.slot].spilled -= spill_block_;
+            counters_.reloaded_entries += spill_block_;
+        }
+        advance(result.slot, now);
+    }
+    return true;
 }
 
 // Decides what a ray does next, once its last request has been worked on.
@@ -123,8 +143,9 @@ void RayScheduler::queue_reload(std::uint32_t slot) {
 }
 
 MemoryRequest RayScheduler::stack_request(std::uint32_t slot, std::size_t first_entry, bool is_write) const {
-    return {.address = region_.base_address + slot * region_.slot_bytes + first_entry * stack_entry_bytes,
-            .size_bytes = spill_block_ * stack_entry_bytes,
+    const std::size_t block = first_entry / spill_block_;
+    return {.address = region_.base_address + slot * region_.slot_bytes + block * model::spill_block_bytes,
+            .size_bytes = model::spill_block_bytes,
             .tag = slot,
             .source = std::uint8_t(ReplyTo::Scheduler),
             .is_write = is_write};
@@ -132,7 +153,10 @@ MemoryRequest RayScheduler::stack_request(std::uint32_t slot, std::size_t first_
 
 bool RayScheduler::issue(Cycle now) {
     std::uint32_t sent = 0;
+    bool has_written = false;  // stack blocks leave one a cycle
     while (sent < config_.fetches_per_cycle && !queued_.empty() && requests_out->can_push(now)) {
+        if (queued_.front().is_write && has_written) break;
+        has_written |= queued_.front().is_write;
         requests_out->push(now, queued_.front());
         queued_.pop_front();
         ++sent;
@@ -141,7 +165,7 @@ bool RayScheduler::issue(Cycle now) {
 }
 
 bool RayScheduler::accept(Cycle now) {
-    if (free_slots_.empty() || !rays_in->can_pop(now) || !hits_out->can_push(now)) return false;
+    if (free_slots_.empty() || !rays_in->can_pop(now) || !can_take_more(now)) return false;
     const std::uint32_t slot = free_slots_.back();
     free_slots_.pop_back();
     RaySlot& ray = slots_[slot];

@@ -2,16 +2,19 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/memory_image.hpp"
 #include "model/ray.hpp"
+#include "model/stack_region.hpp"
 #include "sim/clocked_unit.hpp"
 #include "sim/config.hpp"
 #include "sim/counters.hpp"
 #include "sim/fifo.hpp"
 #include "sim/memory_message.hpp"
+#include "sim/pipeline.hpp"
 #include "sim/ray_slots.hpp"
 
 namespace rtu::sim {
@@ -20,28 +23,20 @@ namespace rtu::sim {
 enum class ReplyTo : std::uint8_t { BoxUnit, PairUnit, Scheduler };
 inline constexpr std::uint32_t reply_channel_count = 3;
 
-/// Stack entries written or read back at once; four of 8 bytes fill a 32-byte sector.
-inline constexpr std::uint32_t stack_entry_bytes = 8;
-inline constexpr std::uint32_t spill_block_entries = 4;
-
-/// Where an RTU's stacks spill to: one region a slot, beyond the image.
-struct StackRegion {
-    std::uint64_t base_address = 0;
-    std::uint64_t slot_bytes = 0;
-};
-
 /// Gives rays their slots, decides what each asks memory for next, and hands finished rays back.
 ///
 /// A cycle, from the output end: up to `results_per_cycle` results (of the pair unit, then the box unit, then
-/// stack blocks read back; the first served alternates) advance their rays: pop the stack, skipping entries
-/// behind the best hit (by comparison of all entries at once: no cycle each), and queue the next request, or
-/// hand the hit out; then up to `fetches_per_cycle` requests leave in the order in which they were queued;
-/// then one new ray is accepted. When a stack outgrows `stack_entries`, its lowest block is written to memory
-/// ahead of the ray's next fetch; when the entries on chip run out, the last block written is read back.
+/// one stack block read back; the first served alternates) are taken; those taken `scheduler.latency_cycles`
+/// ago advance their rays: pop the stack, skipping entries behind the best hit (by comparison of all entries
+/// at once: no cycle each), and queue the next request, or hand the hit out; then up to `fetches_per_cycle`
+/// requests leave in the order in which they were queued, one of them a write at most; then one new ray is
+/// accepted. When a stack outgrows `stack_entries`, its lowest block is written to memory ahead of the ray's
+/// next fetch; when the entries on chip run out, the last block written is read back.
 class RayScheduler final : public ClockedUnit {
   public:
     RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu& config,
-                 const model::MemoryImage& image, model::RayKind kind, RaySlots& slots, StackRegion region);
+                 const model::MemoryImage& image, model::RayKind kind, RaySlots& slots,
+                 model::StackRegion region);
 
     sc_core::sc_port<Fifo<RayMessage>> rays_in{"rays_in"};
     sc_core::sc_port<Fifo<SlotToken>> box_results_in{"box_results_in"};
@@ -62,9 +57,18 @@ class RayScheduler final : public ClockedUnit {
     Activity tick(Cycle now) override;
 
   private:
-    bool retire(Cycle now);
+    /// A result that was taken.
+    struct Result {
+        std::uint32_t slot = 0;
+        bool is_stack_block = false;
+    };
+
+    bool take(Cycle now);
+    bool decide(Cycle now);
     bool issue(Cycle now);
     bool accept(Cycle now);
+    [[nodiscard]] std::optional<Result> next_result(std::uint32_t source, Cycle now);
+    [[nodiscard]] bool can_take_more(Cycle now) const;
     void advance(std::uint32_t slot, Cycle now);
     void finish(std::uint32_t slot, Cycle now);
     void queue_fetch(std::uint32_t slot);
@@ -80,8 +84,9 @@ class RayScheduler final : public ClockedUnit {
     const model::MemoryImage& image_;
     model::RayKind kind_;
     RaySlots& slots_;
-    StackRegion region_;
+    model::StackRegion region_;
     std::vector<std::uint32_t> free_slots_;
+    Pipeline<Result> deciding_;
     std::deque<MemoryRequest> queued_;  // a fetch a slot at most, and its spills
     std::uint32_t first_source_ = 0;
     SchedulerCounters counters_;

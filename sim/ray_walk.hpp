@@ -25,6 +25,8 @@ class RayWalk {
     [[nodiscard]] model::NodeRef current() const {
         return is_recorded_ ? recorded_.current() : computed_.current.ref;
     }
+    /// Children of a node, at most.
+    [[nodiscard]] std::uint32_t node_width() const { return image_->width; }
     /// Boxes that a visit of the current inner node tests.
     [[nodiscard]] std::uint32_t child_count() const {
         return is_recorded_ ? recorded_.child_count() : model::child_count(*image_, computed_.current.ref);

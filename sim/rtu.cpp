@@ -9,6 +9,12 @@ namespace {
 // Deep enough to take what one cycle can bring and give it away in the next, for full rate.
 std::size_t depth_for(std::uint32_t items_per_cycle) { return 2 * std::size_t(items_per_cycle); }
 
+// A place is kept for every ray that the scheduler is deciding about.
+std::size_t hits_depth(const Config::Rtu& config) {
+    return depth_for(config.results_per_cycle + 1) +
+           std::size_t(config.scheduler.latency_cycles) * config.results_per_cycle;
+}
+
 // An L2 may answer all that the L1 has outstanding; a flat memory keeps what the L1 cannot take.
 std::size_t fill_depth(const Config& config) {
     return config.memory.model == MemoryModel::Flat ? flat_fill_depth : config.l1.mshrs;
@@ -20,7 +26,7 @@ Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config
          const RtuJob& job)
     : sc_core::sc_module(name),
       rays_in("rays", 2, domain),
-      hits_out("hits", depth_for(config.rtu.results_per_cycle + 1), domain),
+      hits_out("hits", hits_depth(config.rtu), domain),
       fills_in("fills", fill_depth(config), domain),
       slots_(config.rtu.ray_slots),
       requests_("requests", depth_for(config.rtu.fetches_per_cycle), domain),
@@ -59,6 +65,7 @@ void Rtu::check_drained() const {
               s.node_fetches, box.counters().node_visits);
     RTU_CHECK(s.leaf_fetches == pair.counters().leaf_visits, "{}: {} leaves fetched, {} tested", name(),
               s.leaf_fetches, pair.counters().leaf_visits);
+    pair.check_drained();
     l1.check_drained();
     RTU_CHECK(rays_in.size() + hits_out.size() + requests_.size() + fills_in.size() + nodes_.size() +
                       leaves_.size() + stack_blocks_.size() + box_results_.size() + pair_results_.size() ==

@@ -20,7 +20,7 @@ namespace rtu::sim {
 struct RtuJob {
     const model::MemoryImage& image;
     model::RayKind kind;
-    StackRegion stacks;
+    model::StackRegion stacks;
 };
 
 /// One ray-tracing unit: scheduler, box unit, dual-triangle unit, L1, and the channels between them.

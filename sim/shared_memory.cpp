@@ -24,6 +24,10 @@ class L2AndDram final : public SharedMemory {
         l2_.requests_in[index](requests);
         l2_.replies_out[index](replies);
     }
+    void warm(std::uint64_t address, std::uint32_t size_bytes) override {
+        l2_.warm(address, size_bytes, [](std::uint64_t, std::uint32_t) {});
+    }
+    [[nodiscard]] std::uint64_t l2_misses() const override { return l2_.counters().misses; }
     [[nodiscard]] std::vector<UnitResult> results() const override {
         return {{"l2", l2_.cycle_account(), counter_values(cache_counter_rows, l2_.counters())},
                 {"dram", dram_.cycle_account(), counter_values(dram_counter_rows, dram_.counters())}};
@@ -49,6 +53,8 @@ class OnlyFlatMemory final : public SharedMemory {
         memory_.requests_in[index](requests);
         memory_.replies_out[index](replies);
     }
+    void warm(std::uint64_t, std::uint32_t) override {}
+    [[nodiscard]] std::uint64_t l2_misses() const override { return 0; }
     [[nodiscard]] std::vector<UnitResult> results() const override {
         return {{"memory", memory_.cycle_account(),
                  counter_values(flat_memory_counter_rows, memory_.counters())}};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,10 @@ class SharedMemory {
 
     /// Where RTU `index` sends its requests; to be connected before the machine runs.
     virtual void connect(std::size_t index, Fifo<MemoryRequest>& requests, PushIf<MemoryReply>& replies) = 0;
+    /// Leaves in its cache, if it has one, what a read of `size_bytes` at `address` would, at no cost in cycles.
+    virtual void warm(std::uint64_t address, std::uint32_t size_bytes) = 0;
+    /// Line accesses so far that the L2 had to ask the DRAM for; 0 without an L2.
+    [[nodiscard]] virtual std::uint64_t l2_misses() const = 0;
     /// The units, from the RTUs down.
     [[nodiscard]] virtual std::vector<UnitResult> results() const = 0;
     /// Throws std::logic_error unless every read was answered and every counter adds up.

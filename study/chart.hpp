@@ -39,6 +39,7 @@ struct Chart {
     /// at it; its tic says 0.
     std::optional<double> y_floor = std::nullopt;
     bool has_points = true;  ///< lines: a mark at every point
+    bool has_lines = true;   ///< lines: from point to point; without them has_points must be true
 };
 
 /// Line charts side by side with the same series in the same order; one legend serves all.

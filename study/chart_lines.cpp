@@ -55,6 +55,10 @@ std::string style(const Chart& chart, const ChartSeries& series) {
         return fmt::format("with lines dashtype {} linewidth 1.5 linecolor rgb '{}'",
                            dash_of_level(chart, series), colour);
     }
+    if (!chart.has_lines) {
+        return fmt::format("with points pointtype {} pointsize 0.9 linecolor rgb '{}'",
+                           point_types[series.colour % point_types.size()], colour);
+    }
     const std::size_t round = series.colour / colours.size();
     const std::string dash = round == 0 ? "" : fmt::format("dashtype {} ", round + 1);
     if (!chart.has_points) return fmt::format("with lines {}linewidth 2 linecolor rgb '{}'", dash, colour);

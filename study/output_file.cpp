@@ -87,11 +87,14 @@ fs::path temporary_name(const fs::path& path) {
     return folder_of(path) / fmt::format(".{}.{}.tmp", path.filename().string(), ::getpid());
 }
 
-// Pipes and devices cannot be replaced by renaming; /dev/stdout must not be, even where it leads to a file.
+// Pipes and devices cannot be replaced by renaming; /dev/stdout and /dev/fd/3, links, must not be, even where
+// they lead to a file. A file of its own in /dev/shm is like any other.
 bool is_special(const fs::path& path) {
     std::error_code error;
     if (!fs::exists(path, error)) return false;
-    return !fs::is_regular_file(path, error) || path.lexically_normal().string().starts_with("/dev/");
+    const bool is_stream =
+        fs::is_symlink(path, error) && path.lexically_normal().string().starts_with("/dev/");
+    return is_stream || !fs::is_regular_file(path, error);
 }
 
 // The only reliable answer to "can a file be made here" is to make one.

@@ -83,6 +83,8 @@ std::vector<PartUse> part_uses(std::span<const WorkloadReport> workloads, const 
         rtus * config.rtu.fetches_per_cycle);
     add("box", box_cycles(sums, config), rtus);
     add("pair", sums.of("pair", "tester_cycles"), rtus * config.rtu.pair.testers);
+    add("hit", sums.of("pair", "hit_unit_cycles"),
+        rtus * config.rtu.pair.testers * config.rtu.pair.hit_units);
     add("l1", sums.bank_accesses("l1"), rtus * config.l1.banks);
     add("l2", sums.bank_accesses("l2"), config.l2.banks);
     add("dram", of_main_memory(sums, "bus_busy_cycles"),

@@ -82,12 +82,16 @@ std::string event_table(const SceneReport& report) {
                      {"In flight\nrays, mean"},
                      {"Spilled\nentries"},
                      {"Reloaded\nentries"},
-                     {"Replays\npair tests"}});
+                     {"Replays\npair tests"},
+                     {"Hit units\nheld, mean"},
+                     {"Wait for them\ncycles, mean"}});
     for (const WorkloadReport& workload : report.workloads) {
         table.add_row({workload.name, per(unit_sum(workload, "slot_cycles"), workload.cycles),
                        grouped(unit_sum(workload, "spilled_entries")),
                        grouped(unit_sum(workload, "reloaded_entries")),
-                       grouped(unit_sum(workload, "replays"))});
+                       grouped(unit_sum(workload, "replays")),
+                       per(unit_sum(workload, "hit_unit_cycles"), workload.cycles),
+                       per(unit_sum(workload, "hit_wait_cycles"), unit_sum(workload, "survivors"))});
     }
     return table.text();
 }

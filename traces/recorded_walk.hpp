@@ -42,7 +42,7 @@ class RecordedWalk {
     model::PairVisit visit_pair() {
         --pair_tests_left_;
         const PairTest test = *pair_test_++;
-        return {test.triangle_tests, test.exact_tests};
+        return {test.triangle_tests, test.exact_tests, test.better_hits, test.side_tests};
     }
     /// As model::pop().
     [[nodiscard]] bool pop(std::size_t floor) {

@@ -92,6 +92,9 @@ void place_and_check(VisitChunk& chunk, const ImageFacts& image) {
         if (test.triangle_tests < 1 || test.triangle_tests > 2 || test.exact_tests > test.triangle_tests) {
             throw Error("expected a pair test of 1 or 2 triangles");
         }
+        if (test.better_hits > test.exact_tests || test.side_tests > test.exact_tests) {
+            throw Error("expected no more hits and open sides than exact tests");
+        }
     }
 }
 

@@ -7,6 +7,20 @@
 namespace rtu::traces {
 namespace {
 
+// 0: pair tests without outcomes, which no machine with hit units can be timed by.
+constexpr std::uint8_t variant_with_outcomes = 1;
+
+// Two bits each.
+std::uint8_t packed(const PairTest& test) {
+    return std::uint8_t(test.triangle_tests | test.better_hits << 2 | test.exact_tests << 4 |
+                        test.side_tests << 6);
+}
+
+PairTest unpacked(std::uint8_t byte) {
+    const auto bits = [byte](int from) { return std::uint8_t(byte >> from & 3); };
+    return {.triangle_tests = bits(0), .exact_tests = bits(4), .better_hits = bits(2), .side_tests = bits(6)};
+}
+
 std::vector<model::Hit> hits_of(const VisitChunk& chunk) {
     std::vector<model::Hit> hits;
     for (const WalkedRay& ray : chunk.rays) {
@@ -55,8 +69,7 @@ void take_visits(ByteReader& in, VisitChunk& chunk, std::uint32_t visit_count, s
     }
     chunk.pair_tests.reserve(pair_count);
     for (std::size_t i = 0; i < pair_count; ++i) {
-        const std::uint8_t pair = byte_at(pairs, i);
-        chunk.pair_tests.push_back({std::uint8_t(pair & 15), std::uint8_t(pair >> 4)});
+        chunk.pair_tests.push_back(unpacked(byte_at(pairs, i)));
     }
 }
 
@@ -65,7 +78,8 @@ void take_visits(ByteReader& in, VisitChunk& chunk, std::uint32_t visit_count, s
 std::string encode(const VisitChunk& chunk) {
     const std::vector<model::Hit> hits = hits_of(chunk);
     ByteWriter out;
-    write_head(out, {chunk.workload, std::uint32_t(chunk.rays.size()), chunk.kind, 0, chunk.first_ray});
+    write_head(out, {chunk.workload, std::uint32_t(chunk.rays.size()), chunk.kind, variant_with_outcomes,
+                     chunk.first_ray});
     out.number(std::uint32_t(chunk.visits.size()));
     out.number(std::uint32_t(chunk.pair_tests.size()));
     out.number(std::uint32_t(hits.size()));
@@ -80,15 +94,17 @@ std::string encode(const VisitChunk& chunk) {
     append_column(bytes, chunk.visits, [](const Visit& visit) { return visit.ref; });
     append_column(bytes, chunk.visits, [](const Visit& visit) { return visit.dropped_entries; });
     append_bytes(bytes, chunk.visits, [](const Visit& visit) { return visit.tests | visit.pushes << 4; });
-    append_bytes(bytes, chunk.pair_tests,
-                 [](const PairTest& test) { return test.triangle_tests | test.exact_tests << 4; });
+    append_bytes(bytes, chunk.pair_tests, packed);
     return std::move(bytes);
 }
 
 VisitChunk decode_visit_chunk(std::string_view payload, const ImageFacts& image) {
     ByteReader in(payload);
     const ChunkHead head = read_head(in);
-    if (head.variant != 0) throw Error("expected reserved bytes to be zero");
+    if (head.variant != variant_with_outcomes) {
+        throw Error("expected visits of variant {}, got {}: record them again", variant_with_outcomes,
+                    head.variant);
+    }
     VisitChunk chunk{head.workload, head.kind, head.first_ray, {}, {}, {}};
     const auto visit_count = in.number<std::uint32_t>();
     const auto pair_count = in.number<std::uint32_t>();

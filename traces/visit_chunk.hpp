@@ -25,6 +25,8 @@ struct Visit {
 struct PairTest {
     std::uint8_t triangle_tests = 0;  ///< 1 or 2
     std::uint8_t exact_tests = 0;     ///< 0 to triangle_tests
+    std::uint8_t better_hits = 0;     ///< 0 to exact_tests
+    std::uint8_t side_tests = 0;      ///< 0 to exact_tests
 };
 
 /// Where a ray's steps lie in its chunk, and what it hit.

@@ -18,7 +18,8 @@ Visit visit_leaf(VisitChunk& chunk, const model::MemoryImage& image, model::Trav
     Visit visit{traversal.current.ref, 0, 0, 0};
     while (visit.tests < visit.ref.pair_count() && !model::is_satisfied(traversal)) {
         const model::PairVisit pair = model::visit_pair(traversal, image, visit.tests);
-        chunk.pair_tests.push_back({std::uint8_t(pair.triangle_tests), std::uint8_t(pair.exact_tests)});
+        chunk.pair_tests.push_back({std::uint8_t(pair.triangle_tests), std::uint8_t(pair.exact_tests),
+                                    std::uint8_t(pair.better_hits), std::uint8_t(pair.side_tests)});
         ++visit.tests;
     }
     return visit;

@@ -42,6 +42,7 @@ module cache #(
   output logic [2:0]                     reply_valid_o,
   input  logic [2:0]                     reply_ready_i,
   output logic [3*$clog2(Tags)-1:0]      reply_tag_o,
+  output logic [3*$clog2(Tags)-1:0]      reply_next_tag_o,  // reply_tag_o of the next cycle, where it is valid
   output logic [ReadSectors*256-1:0]     node_o,
   output logic [511:0]                   leaf_o,
   output logic [255:0]                   stack_block_o,
@@ -78,7 +79,7 @@ module cache #(
     .clk_i, .rst_ni, .set_mask_i, .last_way_i, .bank_mask_i, .last_mshr_i, .last_target_i, .last_latency_i,
     .is_ready_o, .request_valid_i, .request_ready_o, .request_address_i, .request_sectors_i, .request_tag_i,
     .request_source_i, .request_is_write_i, .request_place_o(request_place), .reply_valid_o, .reply_ready_i,
-    .reply_tag_o, .mem_valid_o, .mem_ready_i, .mem_is_write_o, .mem_line_o, .mem_sectors_o, .mem_id_o,
+    .reply_tag_o, .reply_next_tag_o, .mem_valid_o, .mem_ready_i, .mem_is_write_o, .mem_line_o, .mem_sectors_o, .mem_id_o,
     .mem_slot_o(mem_slot), .fill_valid_i, .fill_ready_o, .fill_id_i, .fill_place_o(fill_place),
     .bank_is_fill_o(bank_is_fill), .bank_entry_o(bank_entry), .bank_place_o(bank_place), .bank_write_o(bank_write),
     .bank_valid_o(bank_valid), .bank_reply_o(bank_reply), .bank_reply_tag_o(bank_reply_tag),

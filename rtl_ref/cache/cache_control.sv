@@ -31,6 +31,7 @@ module cache_control #(
   output logic [2:0]                        reply_valid_o,
   input  logic [2:0]                        reply_ready_i,
   output logic [3*$clog2(Tags)-1:0]         reply_tag_o,
+  output logic [3*$clog2(Tags)-1:0]         reply_next_tag_o,
   output logic                              mem_valid_o,
   input  logic                              mem_ready_i,
   output logic                              mem_is_write_o,
@@ -341,7 +342,8 @@ module cache_control #(
     reply_queue #(.Lanes(2 * Banks), .Tags(Tags), .MaxLatency(MaxLatency)) u_replies (
       .clk_i, .rst_ni, .last_latency_i, .last_bank_i(last_bank), .room_o(room[4*s+:4]), .push_i(push),
       .tag_i({tag, answered_tag}), .is_stalled_o(stalls[s]), .valid_o(reply_valid_o[s]),
-      .ready_i(reply_ready_i[s]), .tag_o(reply_tag_o[s*TagBits+:TagBits])
+      .ready_i(reply_ready_i[s]), .tag_o(reply_tag_o[s*TagBits+:TagBits]),
+      .next_tag_o(reply_next_tag_o[s*TagBits+:TagBits])
     );
   end
 

@@ -16,7 +16,8 @@ module reply_queue #(
   output logic                          is_stalled_o,  // one could go over but for the channel
   output logic                          valid_o,
   input  logic                          ready_i,
-  output logic [$clog2(Tags)-1:0]       tag_o
+  output logic [$clog2(Tags)-1:0]       tag_o,
+  output logic [$clog2(Tags)-1:0]       next_tag_o     // tag_o of the next cycle, if it is valid then
 );
 
   localparam int unsigned TagBits = $clog2(Tags);
@@ -57,6 +58,11 @@ module reply_queue #(
   end
   storage #(.Width(TagBits), .Entries(Tags), .Reads(1), .Writes(Lanes)) u_ring (
     .clk_i, .read_index_i(head_q), .read_o(tag_o), .write_i(push_i), .write_index_i(place), .data_i(tag_i)
+  );
+  // A copy, as tag_o must not seem to depend on ready_i.
+  storage #(.Width(TagBits), .Entries(Tags), .Reads(1), .Writes(Lanes)) u_next_ring (
+    .clk_i, .read_index_i(head_q + TagBits'(pop)), .read_o(next_tag_o), .write_i(push_i), .write_index_i(place),
+    .data_i(tag_i)
   );
 
   assign valid_o = in_channel_q != 4'd0;

@@ -47,10 +47,11 @@ class FlatMemory {
     [[nodiscard]] const Counters& counters() const { return counters_; }
     [[nodiscard]] bool is_idle() const { return fills_.empty() && bus_free_at_ <= now_; }
 
-    /// Offers the fill whose time has come.
+    /// Offers the fill whose time has come; later, if it is not willing to begin with one.
     template <class Unit>
-    void offer(Unit& unit) {
-        const bool has_fill = !fills_.empty() && fills_.front().ready_at <= now_;
+    void offer(Unit& unit, bool is_willing = true) {
+        is_offered_ |= is_willing;
+        const bool has_fill = !fills_.empty() && fills_.front().ready_at <= now_ && is_offered_;
         unit.fill_valid_i = has_fill;
         if (!has_fill) return;
         const Fill& fill = fills_.front();
@@ -58,12 +59,14 @@ class FlatMemory {
         std::memcpy(unit.fill_data_i.data(), fill.line.data(), line_bytes);
     }
 
-    /// Sees what the unit takes and asks for in this cycle, and answers whether its request is taken.
+    /// Sees what the unit takes and asks for in this cycle, and answers whether its request is taken: not if
+    /// it is not willing.
     template <class Unit>
-    void finish(Unit& unit) {
+    void finish(Unit& unit, bool is_willing = true) {
         if (unit.fill_valid_i && unit.fill_ready_o) fills_.pop_front();
+        is_offered_ = unit.fill_valid_i && !unit.fill_ready_o;
         const bool has_room = unit.mem_is_write_o || fills_.size() < std::size_t(timing_.latency_cycles) + 2;
-        unit.mem_ready_i = bus_free_at_ <= now_ && has_room;
+        unit.mem_ready_i = bus_free_at_ <= now_ && has_room && is_willing;
         if (unit.mem_ready_i && unit.mem_valid_o) take(unit);
         ++now_;
     }
@@ -110,6 +113,7 @@ class FlatMemory {
     Timing timing_;
     std::vector<std::byte> bytes_;
     std::deque<Fill> fills_;
+    bool is_offered_ = false;  // the oldest fill
     std::uint64_t now_ = 0;
     std::uint64_t bus_free_at_ = 0;
     Counters counters_;

@@ -60,11 +60,10 @@ TEST_F(CommandLineErrors, WrongUsageIsExitCodeTwo) {
 }
 
 TEST_F(CommandLineErrors, AnUnknownCommandIsNamed) {
-    EXPECT_THAT(
-        run({"fly"}).err,
-        HasSubstr("expected a command, run, trace, pairing, methods, stability, precision, chart or config, "
-                  "got 'fly'"));
-    EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, trace, pairing, methods, "));
+    const std::string err = run({"fly"}).err;
+    EXPECT_THAT(err, HasSubstr("expected a command, run, trace, pairing, "));
+    EXPECT_THAT(err, HasSubstr(" or config, got 'fly'"));
+    EXPECT_THAT(run({}).err, HasSubstr("expected a command, run, trace, pairing, "));
 }
 
 TEST_F(CommandLineErrors, BadValuesAreNamedInOneLine) {

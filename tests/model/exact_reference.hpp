@@ -2,8 +2,10 @@
 
 // Ray against triangle in rational arithmetic, by the definitions of docs/model.md and nothing else.
 
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
+#include <cmath>
 #include <optional>
 
 #include "model/vec3.hpp"
@@ -60,6 +62,27 @@ inline std::optional<ExactHit> exact_hit(const ExactView& view, const std::array
     const Rational wa = cross(q, r), wb = cross(r, p), wc = cross(p, q), area = wa + wb + wc;
     const Rational depth = wa * view.along(a, axis) + wb * view.along(b, axis) + wc * view.along(c, axis);
     return ExactHit{depth / (area * Rational(double(direction))), wb / area, wc / area};
+}
+
+/// The nearest binary32, of two equally near ones the one with an even significand; infinity from half a unit
+/// beyond the largest on. Zero is +0.
+inline float rounded_once(const Rational& exact) {
+    using Integer = boost::multiprecision::mpz_int;
+    const Rational size = abs(exact);
+    if (size == 0) return 0;
+    int exponent = int(msb(numerator(size))) - int(msb(denominator(size))) - 24;
+    const auto scaled = [&size](int by) {
+        const Rational power(Integer(1) << unsigned(std::abs(by)));
+        return by > 0 ? Rational(size / power) : Rational(size * power);
+    };
+    while (scaled(exponent) >= 0x1p24) ++exponent;
+    exponent = std::max(exponent, -149);
+    const Rational units = scaled(exponent);
+    Integer digits = numerator(units) / denominator(units);
+    const Rational rest = units - digits, half(1, 2);
+    if (rest > half || (rest == half && digits % 2 != 0)) ++digits;
+    const auto rounded = float(std::ldexp(digits.convert_to<double>(), exponent));
+    return exact < 0 ? -rounded : rounded;
 }
 
 }  // namespace rtu::test

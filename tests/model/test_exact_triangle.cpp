@@ -90,48 +90,9 @@ TEST(ExactTriangle, HasAMagnitudeWithinItsBound) {
             reach = std::max(reach, std::abs(double(p[k]) - double(line.origin[k])));
             extent = std::max(extent, std::abs(double(q[k]) - double(p[k])));
         }
-        const Rational error = Rational(ExactTriangle(line, {p, q, p}).edge_function(0)) - exact;
+        const Rational error = Rational(ExactTriangle(line, {p, q, p}).edge_function(0).value) - exact;
         ASSERT_LE(std::abs(error.convert_to<double>()), 0x1p-48 * length * reach * extent);
     }
-}
-
-// From any distance down to none, at any angle, with needles: the sign and nearly all digits are right.
-TEST(ExactTriangle, HasTheDistanceOfRationalArithmetic) {
-    Random random(35);
-    const auto any_size = [&](int below) {
-        return std::ldexp(1.0F, -int(random.below(std::uint32_t(below))));
-    };
-    int zeros = 0;
-    for (int i = 0; i < 20'000; ++i) {
-        const Vec3 a = random.point(-4, 4), b = a + random.point(-1, 1) * any_size(12);
-        const Vec3 c = a + (b - a) * random.uniform(-1, 1) + random.point(-1, 1) * any_size(20);
-        const Vec3 on_plane = i % 3 == 0 ? a : a + (b - a) * 0.25F;
-        const Vec3 origin = i % 4 == 0 ? on_plane : on_plane + random.point(-1, 1) * any_size(80);
-        const Line line{origin, random.point(-1, 1), 0};
-        const auto vector = [](Vec3 to, Vec3 from) {
-            std::array<Rational, 3> v;
-            for (std::size_t k = 0; k < 3; ++k) v[k] = Rational(double(to[k])) - Rational(double(from[k]));
-            return v;
-        };
-        const auto ab = vector(b, a), ac = vector(c, a), oa = vector(a, origin),
-                   d = vector(line.direction, {});
-        Rational along = 0, before = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
-            const Rational normal = ab[m] * ac[n] - ab[n] * ac[m];
-            along += d[k] * normal;
-            before += oa[k] * normal;
-        }
-        if (along == 0) continue;
-        const Rational exact = before / along;
-        const double t = ExactTriangle(line, {a, b, c}).distance();
-        zeros += exact == 0 ? 1 : 0;
-        const Rational error = Rational(t) - exact;
-        const Rational bound = exact * Rational(0x1p-28);
-        ASSERT_TRUE(bound < 0 ? error >= bound && error <= -bound : error >= -bound && error <= bound)
-            << "ray " << i;
-    }
-    EXPECT_GT(zeros, 1'000);
 }
 
 TEST(ExactSum, KeepsWhatDoublesLose) {

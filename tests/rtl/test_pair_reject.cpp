@@ -6,7 +6,7 @@
 #include <array>
 
 #include "hesitant.hpp"
-#include "model/exact_triangle.hpp"
+#include "hit_vectors.hpp"
 #include "pair_vectors.hpp"
 #include "rtl_ref/harness/stream.hpp"
 #include "sim/config.hpp"
@@ -22,15 +22,6 @@ struct Build {
     using Unit = Top;
     static constexpr PairMode mode = Mode;
 };
-
-// Whether the ray passes all three edges on the same side, decided exactly.
-bool is_inside_exactly(const PairVector& vector, std::uint32_t triangle) {
-    const auto& v = vector.pair.vertices;
-    const model::ExactTriangle exact({vector.ray.origin, vector.ray.direction, vector.ray.kz},
-                                     {v[0], v[1 + triangle], v[2 + triangle]});
-    const auto side = [&](std::size_t edge) { return exact.side(edge, exact.edge_function(edge)); };
-    return side(0) != model::Side::Neither && side(0) == side(1) && side(1) == side(2);
-}
 
 template <class B>
 class PairReject : public testing::Test {};
@@ -66,7 +57,7 @@ Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
         ASSERT_EQ(rtl.goes_on_o, expected);
         for (std::uint32_t triangle = 0; triangle < 2; ++triangle) {
             if ((rtl.is_inside_o >> triangle & 1U) == 0) continue;
-            ASSERT_TRUE(is_inside_exactly(vector, triangle));
+            ASSERT_TRUE(test::is_inside_exactly(vector, triangle));
             ++tally.inside;
         }
     };
@@ -95,7 +86,7 @@ TYPED_TEST(PairReject, HasTheDocumentedLatency) {
         return vector;
     });
     ASSERT_TRUE(tally.cycles);
-    EXPECT_EQ(tally.cycles->first_result, 33U);
+    EXPECT_EQ(tally.cycles->first_result, sim::Config{}.rtu.pair.latency_cycles);
 }
 
 TYPED_TEST(PairReject, LosesNothingToHesitantNeighbours) {

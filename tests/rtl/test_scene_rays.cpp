@@ -1,16 +1,17 @@
 #include <Vbox_tester_4.h>
+#include <Vhit_unit.h>
 #include <Vpair_reject_2.h>
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "box_vectors.hpp"
+#include "hit_vectors.hpp"
 #include "model/builtin_scene.hpp"
 #include "model/bvh.hpp"
 #include "model/camera.hpp"
 #include "model/pairing.hpp"
 #include "model/workload.hpp"
-#include "pair_vectors.hpp"
 #include "rtl_ref/harness/stream.hpp"
 
 namespace rtu {
@@ -21,12 +22,15 @@ using model::WorkloadKind;
 // What the units are given while rays cross the built-in scene.
 struct Visits {
     std::vector<test::BoxVector<4>> nodes;
-    std::vector<test::PairVector> pairs;
+    std::vector<test::HitVector> pairs;
 };
 
 void visit_leaf(const model::MemoryImage& image, model::Traversal& traversal, Visits& visits) {
     for (std::uint32_t i = 0; i < traversal.current.ref.pair_count(); ++i) {
-        visits.pairs.push_back({image.leaf_pair(traversal.current.ref, i), traversal.ray, std::uint8_t(i)});
+        const auto& [best, is_found] = traversal.closest;
+        visits.pairs.push_back({{image.leaf_pair(traversal.current.ref, i), traversal.ray, std::uint8_t(i)},
+                                is_found ? std::optional(best) : std::nullopt,
+                                traversal.ray.t_max});
         model::visit_pair(traversal, image, i);
     }
 }
@@ -87,11 +91,11 @@ TEST(SceneRays, SendTheTrianglesOfTheModelToTheSecondPass) {
     Vpair_reject_2 unit;
     int triangles = 0, goes_on = 0, is_inside = 0;
     const auto count = [](std::uint32_t bits) { return std::popcount(bits); };
-    const auto drive = [](auto& rtl, const auto& vector) { test::drive(rtl, vector); };
-    const auto check = [&](const auto& rtl, const test::PairVector& vector) {
+    const auto drive = [](auto& rtl, const auto& vector) { test::drive(rtl, vector.pair); };
+    const auto check = [&](const auto& rtl, const test::HitVector& vector) {
         if (HasFatalFailure()) return;
-        ASSERT_EQ(rtl.goes_on_o, test::goes_on_in_model(vector));
-        triangles += vector.pair.has_second() ? 2 : 1;
+        ASSERT_EQ(rtl.goes_on_o, test::goes_on_in_model(vector.pair));
+        triangles += vector.pair.pair.has_second() ? 2 : 1;
         goes_on += count(rtl.goes_on_o);
         is_inside += count(rtl.is_inside_o);
     };
@@ -102,6 +106,30 @@ TEST(SceneRays, SendTheTrianglesOfTheModelToTheSecondPass) {
     RecordProperty("is_inside", is_inside);
     // What the first pass lets through is mostly hit, and then it knows the sides.
     EXPECT_GT(is_inside, goes_on * 95 / 100);
+}
+
+TEST(SceneRays, FindTheHitsOfTheModel) {
+    std::vector<test::SecondPass> survivors;
+    for (const test::HitVector& vector : scene_visits().pairs) {
+        test::SecondPass survivor{vector, std::uint8_t(test::goes_on_in_model(vector.pair))};
+        for (std::uint32_t i = 0; i < 2; ++i) {
+            if ((survivor.goes_on >> i & 1U) != 0 && test::is_inside_exactly(vector.pair, i))
+                survivor.is_inside = std::uint8_t(survivor.is_inside | 1U << i);
+        }
+        if (survivor.goes_on != 0) survivors.push_back(survivor);
+    }
+    Vhit_unit unit;
+    int found = 0;
+    const auto drive = [](auto& rtl, const auto& vector) { test::drive(rtl, vector); };
+    const auto check = [&](const auto& rtl, const test::SecondPass& vector) {
+        if (!HasFatalFailure()) test::expect_as_model(rtl, vector.hit);
+        found += rtl.found_o;
+    };
+    const auto cycles = rtl::run_stream(unit, survivors.size(), replay(survivors), drive, check);
+    ASSERT_TRUE(cycles);
+    RecordProperty("survivors", int(survivors.size()));
+    RecordProperty("better_hits", found);
+    RecordProperty("cycles", int(cycles->total));
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 
 namespace rtu::test {
 
-std::uint64_t vector_count(std::uint64_t by_default) {
+std::uint64_t vector_count(std::uint64_t by_default, std::uint64_t share) {
     const char* const wanted = std::getenv("RTUSIM_RTL_VECTORS");
-    return wanted != nullptr ? std::stoull(wanted) : by_default;
+    return wanted != nullptr ? std::stoull(wanted) / share : by_default;
 }
 
 }  // namespace rtu::test

@@ -11,8 +11,9 @@
 
 namespace rtu::test {
 
-/// Vectors of a test: `by_default`, or what the environment variable RTUSIM_RTL_VECTORS says.
-std::uint64_t vector_count(std::uint64_t by_default);
+/// Vectors of a test: `by_default`, or what the environment variable RTUSIM_RTL_VECTORS says; of units that
+/// take many cycles a vector, one in `share`.
+std::uint64_t vector_count(std::uint64_t by_default, std::uint64_t share = 1);
 
 inline std::uint32_t bits_of(float x) { return std::bit_cast<std::uint32_t>(x); }
 inline float float_of(std::uint32_t bits) { return std::bit_cast<float>(bits); }

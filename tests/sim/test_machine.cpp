@@ -30,7 +30,19 @@ const Variant variants[] = {
     {"twelve_lanes", [](Config& c) { c.rtu.box.boxes_per_cycle = 12; }},
     {"single", [](Config& c) { c.rtu.pair.mode = PairMode::Single; }},
     {"dual_independent", [](Config& c) { c.rtu.pair.mode = PairMode::DualIndependent; }},
+    {"published_pipeline",
+     [](Config& c) {
+         c.rtu.pair.hit_units = 0, c.rtu.pair.latency_cycles = 22, c.rtu.pair.replay_cycles = 1;
+     }},
+    {"one_hit_unit",
+     [](Config& c) {
+         c.rtu.pair.hit_units = 1, c.rtu.pair.entries = 3;
+         c.rtu.pair.hit_cycles = 40, c.rtu.pair.reject_cycles = 17;
+     }},
     {"three_slow_testers", [](Config& c) { c.rtu.pair.testers = 3, c.rtu.pair.ii_cycles = 5; }},
+    {"packed_nodes", [](Config& c) { c.rtu.box.packs_nodes = 1, c.rtu.box.boxes_per_cycle = 8; }},
+    {"scheduler_without_latency", [](Config& c) { c.rtu.scheduler.latency_cycles = 0; }},
+    {"slow_scheduler", [](Config& c) { c.rtu.scheduler.latency_cycles = 17; }},
     {"stack_of_one", [](Config& c) { c.rtu.stack_entries = 1; }},
     {"flat_memory", [](Config& c) { c.memory.model = MemoryModel::Flat; }},
     {"tiny_with_flat_memory",
@@ -148,10 +160,35 @@ TEST_P(Machine, IsNeverFasterThanItsUnitsAllow) {
     const std::uint64_t issues =
         config_.rtu.pair.mode == PairMode::Single ? result.counts.triangle_tests : result.counts.pair_tests;
     EXPECT_GE(result.cycles * rtus * config_.rtu.pair.testers, issues * config_.rtu.pair.ii_cycles);
+    std::uint64_t held = 0;
+    for (const UnitResult& unit : result.units) {
+        if (unit.name.ends_with("pair")) held += counter(result.units, unit.name, "hit_unit_cycles");
+    }
+    EXPECT_GE(result.cycles * rtus * config_.rtu.pair.testers * config_.rtu.pair.hit_units, held);
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, Machine, testing::ValuesIn(variants),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// What the hit units add to a lone ray: two cycles of queue, and their work.
+std::uint64_t hit_unit_cycles(const Config::Rtu::Pair& config, const model::MemoryImage& image,
+                              const model::Ray& ray) {
+    std::uint64_t cycles = 0;
+    model::Traversal traversal;
+    for (bool goes_on = model::start(traversal, image, ray, RayKind::ClosestHit); goes_on;
+         goes_on = model::pop(traversal)) {
+        if (!traversal.current.ref.is_leaf()) {
+            (void)model::visit_node(traversal, image);
+            continue;
+        }
+        const model::PairVisit visit = model::visit_pair(traversal, image, 0);
+        if (visit.exact_tests == 0) continue;
+        cycles += 2 + visit.better_hits * config.hit_cycles +
+                  (visit.exact_tests - visit.better_hits) * config.reject_cycles +
+                  visit.side_tests * config.side_cycles;
+    }
+    return cycles;
+}
 
 // One slot, everything cached: each step costs the latencies of its two units and one register for each of
 // three channels.
@@ -159,6 +196,7 @@ TEST(MachineLatency, OfOneRayIsTheSumOfItsSteps) {
     Config config;
     config.rtu.ray_slots = 1;
     const auto image = test::image_of(test::triangle_soup(64, 9, 0.3F));
+    int in_hit_units = 0;
     for (const model::Ray& ray : test::rays_into_unit_cube(20, 10)) {
         model::TraversalCounts counts;
         (void)model::trace(image, ray, RayKind::ClosestHit, &counts);
@@ -166,10 +204,16 @@ TEST(MachineLatency, OfOneRayIsTheSumOfItsSteps) {
             return simulate(config, image, std::vector(copies, ray), RayKind::ClosestHit).cycles;
         };
         // The third ray finds in the L1 what the first two have brought there.
-        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles + 3;
-        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles + 3;
-        EXPECT_EQ(cycles(3) - cycles(2), 1 + counts.node_visits * node_step + counts.pair_tests * leaf_step);
+        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles +
+                                        config.rtu.scheduler.latency_cycles + 3;
+        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles +
+                                        config.rtu.scheduler.latency_cycles + 3;
+        const std::uint64_t hits = hit_unit_cycles(config.rtu.pair, image, ray);
+        EXPECT_EQ(cycles(3) - cycles(2),
+                  1 + counts.node_visits * node_step + counts.pair_tests * leaf_step + hits);
+        in_hit_units += hits > 0 ? 1 : 0;
     }
+    EXPECT_GT(in_hit_units, 10);
 }
 
 // The first ray finds nothing in the L1: every visit waits for a flat memory once, and nothing is in its way.
@@ -180,11 +224,14 @@ TEST(MachineLatency, OfOneColdRayAddsAFlatMemorysForEachVisit) {
     for (const model::Ray& ray : test::rays_into_unit_cube(20, 10)) {
         model::TraversalCounts counts;
         (void)model::trace(image, ray, RayKind::ClosestHit, &counts);
-        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles + 3;
-        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles + 3;
+        const std::uint64_t node_step = config.l1.latency_cycles + config.rtu.box.latency_cycles +
+                                        config.rtu.scheduler.latency_cycles + 3;
+        const std::uint64_t leaf_step = config.l1.latency_cycles + config.rtu.pair.latency_cycles +
+                                        config.rtu.scheduler.latency_cycles + 3;
         const std::uint64_t miss = 2 + 1 + config.memory.latency_cycles;
         EXPECT_EQ(simulate(config, image, std::vector{ray}, RayKind::ClosestHit).cycles,
-                  4 + counts.node_visits * (node_step + miss) + counts.pair_tests * (leaf_step + miss));
+                  4 + counts.node_visits * (node_step + miss) + counts.pair_tests * (leaf_step + miss) +
+                      hit_unit_cycles(config.rtu.pair, image, ray));
     }
 }
 
@@ -212,6 +259,7 @@ TEST(MachineModes, OrderAsTheirHardwareDoes) {
     Config config;
     config.rtu.box.boxes_per_cycle = 32;  // so that the pair unit is the limit
     config.rtu.pair.ii_cycles = 8;
+    config.rtu.pair.hit_units = 0;
     const auto image = test::image_of(test::closed_sphere(24, {0.5F, 0.5F, 0.5F}, 0.4F));
     const auto rays = test::rays_into_unit_cube(2'000, 13);
     const auto cycles = [&](PairMode mode) {

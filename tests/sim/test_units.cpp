@@ -1,15 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "machine_fixture.hpp"
 #include "mock_units.hpp"
 #include "sim/box_unit.hpp"
 #include "sim/hit_sink.hpp"
 #include "sim/kernel.hpp"
-#include "sim/pair_unit.hpp"
 #include "sim/ray_scheduler.hpp"
 #include "sim/ray_source.hpp"
+#include "unit_rig.hpp"
 
 namespace rtu::sim {
 namespace {
@@ -17,68 +15,21 @@ namespace {
 using model::RayKind;
 using test::MockSink;
 using test::MockSource;
-using test::Stamped;
-
-// `count` tokens, slots 0, 1, ..., offered from cycle 0 on.
-std::vector<Stamped<MemoryReply>> tokens(std::uint32_t count) {
-    std::vector<Stamped<MemoryReply>> script;
-    for (std::uint32_t slot = 0; slot < count; ++slot) script.push_back({0, {.address = 0, .tag = slot}});
-    return script;
-}
-
-std::vector<RaySlot> started_slots(std::uint32_t count, const model::MemoryImage& image,
-                                   const model::Ray& ray) {
-    std::vector<RaySlot> slots(count);
-    for (RaySlot& slot : slots) EXPECT_TRUE(slot.walk.start(image, {ray, {}}, RayKind::ClosestHit));
-    return slots;
-}
-
-constexpr std::size_t wide_channel = 64;  // never the limit
-
-struct UnitRun {
-    std::vector<Cycle> arrivals;  // at the sink, in order
-    CycleAccount account;
-    Cycle cycles = 0;
-};
-
-// Runs a unit between a source of tokens and a sink that is open when told to be.
-template <class Unit, class Config>
-UnitRun run_unit(const Config& config, std::vector<RaySlot>& slots, std::size_t depth_out = wide_channel,
-                 const std::function<bool(Cycle)>& is_open = {}) {
-    start_fresh_kernel();
-    ClockDomain domain("domain", ClockMode::Fast, 100'000);
-    Fifo<MemoryReply> in("in", wide_channel, domain);
-    Fifo<SlotToken> out("out", depth_out, domain);
-    MockSource<MemoryReply> source("source", domain, tokens(std::uint32_t(slots.size())));
-    Unit unit("unit", domain, config, slots);
-    MockSink<SlotToken> sink("sink", domain, is_open);
-    source.out(in);
-    if constexpr (std::is_same_v<Unit, BoxUnit>) {
-        unit.nodes_in(in);
-    } else {
-        unit.leaves_in(in);
-    }
-    unit.results_out(out);
-    sink.in(out);
-    UnitRun run;
-    run.cycles = domain.run([&] { return sink.received().size() == slots.size(); });
-    for (const auto& [cycle, token] : sink.received()) run.arrivals.push_back(cycle);
-    run.account = unit.cycle_account();
-    return run;
-}
+using test::run_unit;
+using test::started_slots;
 
 // A node with four children, and a ray that enters none: the root of four far apart triangles.
 struct FourBoxes {
     model::TriangleMesh mesh{"four", {}, {}};
     model::MemoryImage image;
     model::Ray ray{{0, 50, 0}, 0, {1, 0, 0}, 1e30F};
-    FourBoxes() {
+    explicit FourBoxes(std::uint32_t width = 4) {
         for (std::uint32_t i = 0; i < 4; ++i) {
             const float x = 10 * float(i);
             mesh.positions.insert(mesh.positions.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 1}});
             mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         }
-        image = test::image_of(mesh);
+        image = test::image_of(mesh, {.width = width});
     }
 };
 
@@ -99,7 +50,7 @@ TEST_P(BoxRate, IsThatOfItsLanes) {
     constexpr std::uint32_t count = 48;
     auto slots = started_slots(count, scene.image, scene.ray);
     const Config::Rtu::Box config{.boxes_per_cycle = GetParam(), .latency_cycles = 12};
-    const UnitRun run = run_unit<BoxUnit>(config, slots);
+    const auto run = run_unit<BoxUnit>(config, slots);
     for (std::uint32_t k = 0; k < count; ++k) {
         const std::uint32_t nodes_per_cycle = std::max(1U, GetParam() / 4);
         const std::uint32_t cycles_per_node = (4 + GetParam() - 1) / GetParam();
@@ -110,89 +61,28 @@ TEST_P(BoxRate, IsThatOfItsLanes) {
 
 INSTANTIATE_TEST_SUITE_P(Lanes, BoxRate, testing::Values(1, 2, 3, 4, 5, 8, 12, 16));
 
+TEST(BoxUnit, GivesIdleLanesToTheNextNodeOnlyWhenItPacks) {
+    const FourBoxes scene(8);
+    constexpr std::uint32_t count = 20;
+    for (const std::uint32_t nodes_per_cycle : {1U, 2U}) {
+        auto slots = started_slots(count, scene.image, scene.ray);
+        const Config::Rtu::Box config{
+            .boxes_per_cycle = 8, .packs_nodes = nodes_per_cycle - 1, .latency_cycles = 12};
+        EXPECT_EQ(run_unit<BoxUnit>(config, slots).arrivals.back(),
+                  1 + (count - 1) / nodes_per_cycle + config.latency_cycles + 1);
+    }
+}
+
 TEST(BoxUnit, WaitsForAFullSinkAndLosesNothing) {
     const FourBoxes scene;
     auto slots = started_slots(60, scene.image, scene.ray);
     const Config::Rtu::Box config{.boxes_per_cycle = 4, .latency_cycles = 12};
-    const UnitRun run = run_unit<BoxUnit>(config, slots, 2, [](Cycle now) { return now % 40 == 0; });
+    const auto run = run_unit<BoxUnit>(
+        config, slots, {.offered = {}, .depth_out = 2, .is_open = [](Cycle now) { return now % 40 == 0; }});
     EXPECT_EQ(run.arrivals.size(), 60U);
     EXPECT_GT(run.account.blocked, 0U);
     EXPECT_EQ(run.account.busy, 60U);
     EXPECT_EQ(run.account.total(), run.cycles);
-}
-
-// A folded pair whose two triangles are both pierced, at the root's only leaf; and rays that stand before
-// that leaf.
-struct OnePair {
-    model::TriangleMesh mesh;
-    model::MemoryImage image;
-    std::vector<RaySlot> slots;
-    OnePair(bool is_folded, std::uint32_t count)
-        : mesh{"pair",
-               {{-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, is_folded ? test::Vec3{1, -1, 2} : test::Vec3{-2, 1, 1}},
-               {{0, 1, 2}, {0, 2, 3}}},
-          image(test::image_of(mesh)),
-          slots(started_slots(count, image, {{-0.5F, -0.5F, 0}, 0, {0, 0, 1}, 1e30F})) {
-        for (RaySlot& slot : slots) {
-            slot.walk.visit_node();
-            EXPECT_TRUE(slot.walk.pop());
-        }
-    }
-};
-
-TEST(PairUnit, AnswersExactlyAfterItsLatency) {
-    for (const std::uint32_t latency : {1U, 9U, 22U}) {
-        OnePair scene(false, 1);
-        const Config::Rtu::Pair config{PairMode::DualShared, 1, 1, latency, 1};
-        EXPECT_EQ(run_unit<PairUnit>(config, scene.slots).arrivals, std::vector<Cycle>{2 + latency});
-    }
-}
-
-struct PairCase {
-    PairMode mode;
-    bool is_folded;
-    std::uint32_t ii, replay;
-    std::uint32_t held;   // cycles that a pair holds its tester
-    std::uint32_t extra;  // cycles that its result is late
-};
-
-void PrintTo(const PairCase& c, std::ostream* out) {
-    *out << "mode " << int(c.mode) << (c.is_folded ? ", folded" : "") << ", interval " << c.ii << ", replay "
-         << c.replay;
-}
-
-class PairRate : public testing::TestWithParam<PairCase> {};
-
-TEST_P(PairRate, IsThatOfItsModeAndInterval) {
-    const auto [mode, is_folded, ii, replay, held, extra] = GetParam();
-    for (const std::uint32_t testers : {1U, 2U}) {
-        constexpr std::uint32_t count = 40, latency = 22;
-        OnePair scene(is_folded, count);
-        const UnitRun run =
-            run_unit<PairUnit>(Config::Rtu::Pair{mode, testers, ii, latency, replay}, scene.slots);
-        for (std::uint32_t k = 0; k < count; ++k) {
-            ASSERT_EQ(run.arrivals[k], 1 + k / testers * held + extra + latency + 1) << "result " << k;
-        }
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(Modes, PairRate,
-                         testing::Values(PairCase{PairMode::Single, false, 1, 1, 2, 1},
-                                         PairCase{PairMode::Single, false, 3, 1, 6, 3},
-                                         PairCase{PairMode::Single, true, 1, 1, 2, 1},
-                                         PairCase{PairMode::DualIndependent, false, 1, 1, 1, 0},
-                                         PairCase{PairMode::DualIndependent, true, 4, 1, 4, 0},
-                                         PairCase{PairMode::DualShared, false, 1, 1, 1, 0},
-                                         PairCase{PairMode::DualShared, true, 1, 1, 2, 1},
-                                         PairCase{PairMode::DualShared, true, 2, 3, 5, 3}));
-
-TEST(PairUnit, WaitsForAFullSinkAndLosesNothing) {
-    OnePair scene(true, 60);
-    const UnitRun run = run_unit<PairUnit>(Config::Rtu::Pair{PairMode::DualShared, 1, 1, 22, 1}, scene.slots,
-                                           2, [](Cycle now) { return now % 100 == 0; });
-    EXPECT_EQ(run.arrivals.size(), 60U);
-    EXPECT_GT(run.account.blocked, 0U);
-    EXPECT_EQ(run.account.busy, 120U);
 }
 
 TEST(RaySource, HandsRaysOutInTurnAtItsRate) {

@@ -67,6 +67,15 @@ TEST_F(OutputFileTest, ReplacesAFileAsAWhole) {
     EXPECT_EQ(content(folder_ / "a.txt"), "new");
 }
 
+TEST_F(OutputFileTest, ReplacesAFileInMemoryAsAWhole) {
+    if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "no /dev/shm here";
+    const fs::path path = "/dev/shm/rtusim_output_file_test_" + std::to_string(::getpid());
+    write_files(std::vector<OutputFile>{{path, "much longer than what follows"}});
+    write_files(std::vector<OutputFile>{{path, "short"}});
+    EXPECT_EQ(content(path), "short");
+    fs::remove(path);
+}
+
 TEST_F(OutputFileTest, WritesThroughALink) {
     std::ofstream(folder_ / "target") << "old";
     fs::create_symlink("target", folder_ / "link");

@@ -78,7 +78,7 @@ std::vector<WorkloadReport> two_workloads() {
     workload.units = {unit("rtu0.scheduler", {{"node_fetches", "", 30}, {"leaf_fetches", "", 10}}),
                       unit("rtu0.box", {{"issue_cycles", "", 90}, {"node_visits", "", 120}}),
                       unit("rtu1.box", {{"issue_cycles", "", 50}, {"node_visits", "", 40}}),
-                      unit("rtu1.pair", {{"tester_cycles", "", 60}})};
+                      unit("rtu1.pair", {{"tester_cycles", "", 60}, {"hit_unit_cycles", "", 300}})};
     workload.memory = {
         unit("rtu0.l1", {{"line_reads", "", 80}, {"misses", "", 15}, {"mshr_merges", "", 5}}),
         unit("l2", {{"line_reads", "", 20}, {"misses", "", 12}, {"line_writes", "", 8}}),
@@ -100,6 +100,7 @@ TEST(PairingRun, UsesAreWorkOverWhatThePartsCanDo) {
     EXPECT_DOUBLE_EQ(use("scheduler"), 100.0 * 80 / (400 * 2 * config.rtu.fetches_per_cycle));
     EXPECT_DOUBLE_EQ(use("box"), 100.0 * 280 / (400 * 2));  // one node a cycle: the cycles that issue
     EXPECT_DOUBLE_EQ(use("pair"), 100.0 * 120 / (400 * 2 * 3));
+    EXPECT_DOUBLE_EQ(use("hit"), 100.0 * 600 / (400 * 2 * 3 * config.rtu.pair.hit_units));
     EXPECT_DOUBLE_EQ(use("l1"), 100.0 * 200 / (400 * 2 * config.l1.banks));
     EXPECT_DOUBLE_EQ(use("l2"), 100.0 * 80 / (400 * config.l2.banks));
     EXPECT_DOUBLE_EQ(use("dram"), 100.0 * 400 / (400 * config.dram.channels));

@@ -99,7 +99,7 @@ TEST(Watertight, TheMachineDecidesAMillionTrianglesAsTheOracleDoes) {
     for (const StabilityRow& row : report.rows) {
         rays += row.tally.rays;
         EXPECT_EQ(row.tally.wrong_owners, 0U) << row.parameter;
-        EXPECT_LE(row.tally.t_ulp.max(), 0.5625) << row.parameter;  // 1/2 and 1/16
+        EXPECT_LE(row.tally.t_ulp.max(), 0.5 + 0x1p-15) << row.parameter;  // the oracle's t is good to 2^-40
     }
     EXPECT_GE(rays * share, 900'000U);
 }

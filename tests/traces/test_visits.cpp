@@ -99,11 +99,27 @@ TEST(Visits, ImpossibleTraversalsAreRefused) {
     EXPECT_THAT(fault([&](auto& c) { c.visits[leaf].tests = 0; }), HasSubstr("count of pair tests"));
     EXPECT_THAT(fault([&](auto& c) { c.visits[leaf].pushes = 1; }), HasSubstr("pushes after a leaf"));
     EXPECT_THAT(fault([&](auto& c) { c.pair_tests[0].triangle_tests = 3; }), HasSubstr("1 or 2 triangles"));
+    EXPECT_THAT(fault([&](auto& c) { c.pair_tests[0].better_hits = 3; }), HasSubstr("than exact tests"));
+    EXPECT_THAT(fault([&](auto& c) { c.pair_tests[0].side_tests = 3; }), HasSubstr("than exact tests"));
     EXPECT_THAT(fault([&](auto& c) { c.pair_tests.pop_back(); }), HasSubstr("pair tests"));
     EXPECT_THAT(fault([&](auto& c) { ++c.rays[0].visit_count; }), HasSubstr(""));
     EXPECT_NE(fault([&](auto& c) { ++c.rays[0].visit_count; }), "");
     EXPECT_THAT(fault([&](auto& c) { c.rays.back().visit_count = ~0U; }), HasSubstr("visits, got more"));
     EXPECT_THAT(fault([&](auto& c) { c.rays[5].hit = model::Hit{}; }), HasSubstr("a hit without a visit"));
+}
+
+// Before pair tests had their outcomes, byte 21 of a chunk was 0.
+TEST(Visits, WithoutOutcomesAreRefused) {
+    const auto image = image_of(triangle_soup(300, 5, 0.2F));
+    std::string payload = encode(example(RayKind::ClosestHit, image, 5));
+    const auto decode = [&] {
+        return error_of(
+            [&] { static_cast<void>(traces::decode_visit_chunk(payload, traces::image_facts(image))); });
+    };
+    EXPECT_EQ(decode(), "");
+    const std::size_t variant = payload.find('\1', 32);
+    payload[variant] = 0;
+    EXPECT_THAT(decode(), testing::HasSubstr("record them again"));
 }
 
 TEST(Visits, ManyRaysAreSplitIntoChunks) {

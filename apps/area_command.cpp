@@ -1,0 +1,145 @@
+#include "apps/area_command.hpp"
+
+#include <tbb/global_control.h>
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "apps/chart_files.hpp"
+#include "apps/exit_code.hpp"
+#include "apps/machine_options.hpp"
+#include "apps/option_values.hpp"
+#include "apps/progress.hpp"
+#include "apps/report_output.hpp"
+#include "model/error.hpp"
+#include "sim/presets.hpp"
+#include "study/area_charts.hpp"
+#include "study/area_output.hpp"
+#include "study/area_study.hpp"
+#include "study/output_file.hpp"
+
+namespace rtu::apps {
+namespace {
+
+constexpr const char* description =
+    "tell what a machine is made of: gates, register bits, multipliers, adders and SRAM bits of every unit, "
+    "from\n"
+    "the synthesised RTL reference; with scenes, MRPS per million gates, and what sharing a pair's common "
+    "edge\n"
+    "saves in gates against what it costs in cycles";
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  rtusim area                                     the default machine, beside all presets\n"
+    "  rtusim area --set rtu.box.boxes_per_cycle=2     half the box lanes\n"
+    "  rtusim area builtin                             with the built-in scene, in every mode of the pair "
+    "unit\n"
+    "  rtusim area bunny.glb dragon.glb --charts out   what sharing the common edge is worth, SVG and PNG\n"
+    "  rtusim area bunny.glb --html area.html          one page with all tables and charts\n"
+    "  rtusim area --json - | jq '.presets[] | {name, gates}'\n";
+
+struct Arguments {
+    std::vector<std::string> scenes;
+    MachineOptions machine;
+    std::string workloads = "primary,shadow,diffuse";
+    std::string resolution = "128x128";
+    std::string camera;
+    std::string seed = "1";
+    unsigned threads = 0;
+    ReportOutput output;
+    ChartFiles charts;
+};
+
+void add_options(CLI::App& area, Arguments& arguments) {
+    area.add_option("SCENE", arguments.scenes,
+                    "glTF 2.0 files (.gltf, .glb) to simulate, or `builtin`; none: areas only")
+        ->type_name("");
+    add_machine_options(area, arguments.machine);
+    area.add_option("--workload", arguments.workloads, "rays, of primary, shadow, ao, diffuse, random")
+        ->type_name("LIST")
+        ->capture_default_str();
+    area.add_option("--resolution", arguments.resolution, "picture size in pixels, one primary ray each")
+        ->type_name("WxH")
+        ->capture_default_str();
+    area.add_option("--camera", arguments.camera, "TOML with cameras by scene name, as in `rtusim run`")
+        ->type_name("FILE")
+        ->check(is_not_empty());
+    area.add_option("--seed", arguments.seed, "of the random numbers of ao, diffuse and random rays")
+        ->type_name("N")
+        ->capture_default_str();
+    add_report_options(area, arguments.output);
+    add_chart_file_options(area, arguments.charts);
+    area.add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+}
+
+study::AreaOptions options_of(const Arguments& arguments) {
+    study::AreaOptions options;
+    options.preset = arguments.machine.preset;
+    options.config = load(arguments.machine).config;
+    for (const std::string& name : sim::preset_names()) {
+        options.presets.push_back({name, sim::load_config(name, std::nullopt, {}).config});
+    }
+    options.scenes = parse_scenes_or_builtin(arguments.scenes);
+    options.workloads = parse_workloads(arguments.workloads);
+    options.resolution = parse_resolution(arguments.resolution);
+    options.seed = parse_seed(arguments.seed);
+    options.camera_file = optional_path(arguments.camera);
+    check_cameras(options.camera_file, options.scenes);
+    std::set<std::string> names;
+    for (const study::SceneSource& scene : options.scenes) {
+        if (!names.insert(scene.name()).second) {
+            throw Error("two scenes are called '{}', and the report could not tell them apart", scene.name());
+        }
+    }
+    return options;
+}
+
+study::AreaReport measure(study::AreaOptions& options) {
+    Progress progress;
+    options.progress = [&](std::string_view scene, std::string_view phase) { progress.show(scene, phase); };
+    return study::run_area_study(options);
+}
+
+int run_area(const Arguments& arguments) {
+    study::remove_temporaries_on_interrupt();
+    study::AreaOptions options = options_of(arguments);
+    std::vector<std::filesystem::path> inputs;
+    for (const study::SceneSource& scene : options.scenes) {
+        if (scene.file) inputs.push_back(*scene.file);
+    }
+    for (const std::string& name : {arguments.camera, arguments.machine.file}) {
+        if (!name.empty()) inputs.emplace_back(name);
+    }
+    check_report_output(arguments.output, inputs);
+    check_chart_files(arguments.charts, arguments.output, inputs);
+    std::optional<tbb::global_control> limit;
+    if (arguments.threads > 0) {
+        limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
+    }
+    const study::AreaReport report = measure(options);
+    std::vector<study::OutputFile> files;
+    if (!arguments.charts.html.empty()) files.push_back({arguments.charts.html, study::area_html(report)});
+    add_charts(arguments.charts, study::area_charts(report), files);
+    write_report(arguments.output, study::area_text(report), study::area_json(report),
+                 study::area_csv(report), files);
+    return exit_done;
+}
+
+}  // namespace
+
+void add_area_command(CLI::App& app, std::function<int()>& command) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* area = app.add_subcommand("area", description);
+    area->footer(footer);
+    area->get_formatter()->column_width(34);
+    add_options(*area, *arguments);
+    area->callback([arguments, &command] { command = [arguments] { return run_area(*arguments); }; });
+}
+
+}  // namespace rtu::apps

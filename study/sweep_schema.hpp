@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace rtu::study {
+
+/// Marks a database file as one of sweeps ("RTUs"), and the version of its tables.
+inline constexpr int sweep_application_id = 0x52545573;
+inline constexpr int sweep_schema_version = 1;
+
+/// The statements that make the tables and the view `results`.
+[[nodiscard]] std::string sweep_schema();
+
+}  // namespace rtu::study

@@ -1,0 +1,242 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <random>
+#include <set>
+
+#include "study/analytic_model.hpp"
+#include "study/fidelity_estimate.hpp"
+#include "study/fidelity_study.hpp"
+#include "study/queueing.hpp"
+#include "study/reuse_distance.hpp"
+
+namespace rtu::study {
+namespace {
+
+// Of n equal stations: N / (D (N + n - 1)).
+TEST(Queueing, BalancedNetworkHasItsClosedForm) {
+    const std::vector<double> demands{2, 2, 2};
+    for (const std::uint32_t customers : {1U, 2U, 7U, 128U}) {
+        EXPECT_NEAR(closed_network_throughput(demands, 0, customers), customers / (2.0 * (customers + 2)),
+                    1e-12);
+    }
+}
+
+TEST(Queueing, ThroughputIsBoundedByTheSlowestStationAndByTheRound) {
+    const std::vector<double> demands{1, 4, 2};
+    EXPECT_NEAR(closed_network_throughput(demands, 10, 1), 1 / 17.0, 1e-12);
+    EXPECT_NEAR(closed_network_throughput(demands, 10, 1000), 1 / 4.0, 1e-6);
+    EXPECT_EQ(closed_network_throughput({}, 0, 5), 0);
+}
+
+TEST(Queueing, NodesShareLanesAsFarAsTheyFit) {
+    const auto all_with = [](std::size_t children) {
+        std::vector<double> nodes(9, 0);
+        nodes[children] = 10;
+        return nodes;
+    };
+    EXPECT_NEAR(packed_cycles_per_node(all_with(4), 4), 1, 1e-9);
+    EXPECT_NEAR(packed_cycles_per_node(all_with(3), 4), 1, 1e-9);
+    EXPECT_NEAR(packed_cycles_per_node(all_with(2), 4), 0.5, 1e-9);
+    EXPECT_NEAR(packed_cycles_per_node(all_with(8), 4), 2, 1e-9);
+    EXPECT_NEAR(packed_cycles_per_node(all_with(4), 1), 4, 1e-9);
+    EXPECT_EQ(packed_cycles_per_node(std::vector<double>(9, 0), 4), 0);
+}
+
+TEST(Queueing, BanksServeUntilTheFirstConflict) {
+    EXPECT_DOUBLE_EQ(in_order_bank_rate(1, 8), 1);
+    EXPECT_DOUBLE_EQ(in_order_bank_rate(4, 2), 1.75);
+    EXPECT_DOUBLE_EQ(in_order_bank_rate(2, 2), 1.5);
+}
+
+// The definition, slowly: distinct lines of all accesses since the block's last, its own line left out.
+TEST(ReuseDistance, EqualsItsDefinition) {
+    constexpr std::uint64_t blocks = 200;
+    ReuseDistances distances(128, blocks * 64);
+    std::mt19937 random(3);
+    std::vector<std::uint64_t> past;
+    for (int i = 0; i < 3000; ++i) {
+        const std::uint64_t block = random() % (i % 7 == 0 ? blocks : 40);
+        std::uint64_t expected = ReuseDistances::never;
+        std::set<std::uint64_t> lines;
+        for (std::size_t k = past.size(); k-- > 0;) {
+            if (past[k] == block) {
+                expected = lines.size();
+                break;
+            }
+            if (past[k] / 2 != block / 2) lines.insert(past[k] / 2);
+        }
+        ASSERT_EQ(distances.access(block * 64, 64), expected) << "access " << i;
+        past.push_back(block);
+    }
+}
+
+TEST(KendallTau, CountsPairsInOrder) {
+    EXPECT_DOUBLE_EQ(kendall_tau({1, 2, 3, 4}, {10, 20, 30, 40}), 1);
+    EXPECT_DOUBLE_EQ(kendall_tau({1, 2, 3, 4}, {4, 3, 2, 1}), -1);
+    EXPECT_DOUBLE_EQ(kendall_tau({1, 2, 3}, {1, 3, 2}), 1.0 / 3);
+    EXPECT_DOUBLE_EQ(kendall_tau({1, 2, 3}, {5, 5, 5}), 0);
+}
+
+TEST(Estimate, QuantilesAreThoseOfTables) {
+    EXPECT_NEAR(t_quantile(1), 12.706, 1e-3);
+    EXPECT_NEAR(t_quantile(10), 2.228, 1e-3);
+    EXPECT_NEAR(t_quantile(1000), 1.962, 1e-3);
+}
+
+// A workload whose work per position varies along it, and whose windows cost their work and some noise.
+class SyntheticRun {
+  public:
+    SyntheticRun(double noise, std::uint32_t seed) : noise_(noise), random_(seed) {}
+
+    WindowMeasurement measure() {
+        WindowMeasurement run;
+        run.window_length = length;
+        run.middle_length = windows * length;
+        run.first = run.last = {0, {}};
+        for (int k = 0; k < 20; ++k)
+            run.windows.push_back(window(std::uint32_t((k + uniform()) * windows / 20)));
+        for (int i = 0; i < 4000; ++i) run.lattice.push_back(position((i + uniform()) / 4000));
+        return run;
+    }
+    // Without noise: cycles are nodes and a quarter of the pairs.
+    static double truth() {
+        double cycles = 0;
+        for (std::uint32_t i = 0; i < windows; ++i) cycles += cycles_of(mean_work((i + 0.5) / windows));
+        return cycles / windows;
+    }
+
+  private:
+    static constexpr std::uint32_t length = 500, windows = 1000;
+
+    static RayWork mean_work(double place) {
+        const double nodes = 10 + 8 * std::sin(9 * place);
+        return {1, nodes, 4 * nodes, 1 + place, 1 + place, 2 + place};
+    }
+    static double cycles_of(const RayWork& work) { return work.node_visits + 0.25 * work.pair_tests; }
+    double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
+    RayWork position(double place) {
+        RayWork work = mean_work(place);
+        work.node_visits *= 0.5 + uniform();
+        work.box_tests = 4 * work.node_visits;
+        return work;
+    }
+    WindowSample window(std::uint32_t index) {
+        const RayWork work = double(length) * mean_work((index + 0.5) / windows);
+        const double factor = 1 + noise_ * std::normal_distribution<double>()(random_);
+        return {cycles_of(work) * factor, work};
+    }
+
+    double noise_;
+    std::mt19937 random_;
+};
+
+TEST(Estimate, IsExactButForTheLatticeWhenWindowsCostTheirWork) {
+    SyntheticRun run(0, 1);
+    const std::vector<WindowMeasurement> passes{run.measure()};
+    const CycleEstimate estimate = estimate_cycles({}, passes);
+    EXPECT_NEAR(estimate.cycles_per_ray, SyntheticRun::truth(), 0.02 * SyntheticRun::truth());
+    EXPECT_LT(estimate.relative_half_width(), 0.02);
+    EXPECT_NEAR(estimate.rays, 500'000, 1e-3);
+}
+
+TEST(Estimate, IntervalHoldsTheTruthAsOftenAsItSays) {
+    constexpr int trials = 600;
+    int inside = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+        SyntheticRun run(0.1, std::uint32_t(trial) + 10);
+        const std::vector<WindowMeasurement> passes{run.measure()};
+        const CycleEstimate estimate = estimate_cycles({}, passes);
+        if (estimate.low <= SyntheticRun::truth() && SyntheticRun::truth() <= estimate.high) ++inside;
+    }
+    EXPECT_GT(inside, 0.92 * trials);
+    EXPECT_LT(inside, 0.99 * trials) << "too wide: nothing is gained by an interval that holds everything";
+}
+
+TEST(Estimate, NoRaysGiveNothing) {
+    WindowMeasurement empty;
+    empty.window_length = 10;
+    empty.middle_length = 100;
+    empty.windows.resize(3);
+    empty.lattice.resize(5);
+    const CycleEstimate estimate = estimate_cycles({}, std::vector{empty});
+    EXPECT_EQ(estimate.rays, 0);
+    EXPECT_EQ(estimate.cycles_per_ray, 0);
+}
+
+WorkloadProfile uniform_profile(double nodes, double pairs) {
+    WorkloadProfile profile;
+    profile.nodes_with[4] = 1;
+    ProfileBlock& block = profile.blocks.emplace_back();
+    block.rays = 1e6;
+    block.per_ray = {.rays = 1,
+                     .node_visits = nodes,
+                     .box_tests = 4 * nodes,
+                     .leaf_visits = pairs,
+                     .pair_tests = pairs,
+                     .triangle_tests = 2 * pairs,
+                     .survivor_pairs = pairs / 2,
+                     .survivors = pairs,
+                     .better_hits = pairs / 4};
+    return profile;
+}
+
+TEST(AnalyticModel, TheSlowestUnitSetsTheRate) {
+    const WorkloadProfile profile = uniform_profile(20, 2);
+    sim::Config config;
+    const AnalyticResult box = analyse(config, profile);
+    EXPECT_NEAR(box.cycles_per_ray, 20, 0.1);
+    EXPECT_EQ(box.bottleneck, "box");
+    config.rtu.pair.ii_cycles = 40;
+    config.rtu.pair.hit_units = 0;
+    const AnalyticResult pair = analyse(config, profile);
+    EXPECT_NEAR(pair.cycles_per_ray, 80, 0.1);
+    EXPECT_EQ(pair.bottleneck, "pair");
+    config.rtu.count = 2;
+    config.host.rays_per_cycle = 2;
+    EXPECT_NEAR(analyse(config, profile).cycles_per_ray, 40, 0.1);
+}
+
+TEST(AnalyticModel, FewHitUnitsSetTheRate) {
+    sim::Config config;
+    config.rtu.pair.hit_units = 2;
+    const AnalyticResult result = analyse(config, uniform_profile(20, 2));
+    EXPECT_NEAR(result.cycles_per_ray, (0.5 * 92 + 1.5 * 56) / 2, 0.5);
+    EXPECT_EQ(result.bottleneck, "hit units");
+}
+
+TEST(AnalyticModel, AFlatMemoryIsOneBus) {
+    WorkloadProfile profile = uniform_profile(20, 2);
+    profile.blocks.front().l1_misses_per_ray = 10;
+    sim::Config config;
+    config.memory = {sim::MemoryModel::Flat, 50, 16};  // 8 cycles a line
+    const AnalyticResult result = analyse(config, profile);
+    EXPECT_NEAR(result.cycles_per_ray, 80, 5);
+    EXPECT_EQ(result.bottleneck, "memory bus");
+}
+
+TEST(AnalyticModel, OneSlotTakesItsLatency) {
+    const WorkloadProfile profile = uniform_profile(20, 2);
+    sim::Config config;
+    config.rtu.ray_slots = 1;
+    const double unloaded = unloaded_cycles(config, profile.blocks.front());
+    EXPECT_DOUBLE_EQ(unloaded, 1 + 20 * (20 + 12 + 3 + 3) + 2 * (20 + 33 + 3 + 3) + 2 + 0.5 * 92 + 1.5 * 56);
+    EXPECT_GT(analyse(config, profile).cycles_per_ray, unloaded);
+}
+
+TEST(AnalyticModel, MissesCostLatencyAndBandwidth) {
+    WorkloadProfile profile = uniform_profile(20, 2);
+    EXPECT_EQ(analyse({}, profile).memory_share, 0);
+    profile.blocks.front().l1_misses_per_ray = profile.blocks.front().l2_misses_per_ray = 10;
+    sim::Config config;
+    config.dram.channels = 1;  // 128 bytes at 16 a cycle: 8 cycles a line
+    const AnalyticResult result = analyse(config, profile);
+    EXPECT_NEAR(result.cycles_per_ray, 80, 5);
+    EXPECT_EQ(result.bottleneck, "dram bus");
+    EXPECT_NEAR(result.memory_share, 0.75, 0.05);
+}
+
+}  // namespace
+}  // namespace rtu::study
