@@ -40,7 +40,7 @@ module pair_tester #(
   localparam int unsigned Numbers = 745;
   localparam int unsigned HitWidth = NameWidth + 129;
 
-  // A pair takes the entry that was chosen for it before: the lowest free one. Its own is free when its result has left.
+  // A pair takes the entry that was chosen for it before: the lowest free one, or else that of the result that leaves.
   logic [Entries-1:0] is_used_q, is_free, lowest;
   logic [EntryWidth-1:0] entry_q, lowest_free, freed_entry;
   logic has_entry_q, accepts, leaves, first_ready;
@@ -58,7 +58,7 @@ module pair_tester #(
     logic is_chosen, is_left;
     assign is_chosen = has_entry_q && entry_q == EntryWidth'(i);
     assign is_left = leaves && freed_entry == EntryWidth'(i);
-    assign is_free[i] = (~is_used_q[i] | is_left) & ~is_chosen;
+    assign is_free[i] = ~is_used_q[i] & ~is_chosen;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) is_used_q[i] <= 1'b0;
       else is_used_q[i] <= (is_used_q[i] & ~is_left) | (accepts & is_chosen);
@@ -69,8 +69,8 @@ module pair_tester #(
       has_entry_q <= 1'b0;
       entry_q <= '0;
     end else if (accepts | ~has_entry_q) begin
-      has_entry_q <= |is_free;
-      entry_q <= lowest_free;
+      has_entry_q <= (|is_free) | leaves;
+      entry_q <= (|is_free) ? lowest_free : freed_entry;
     end
   end
 

@@ -81,7 +81,7 @@ struct Case {
     WorkloadKind kind = WorkloadKind::Primary;
     std::uint32_t columns = 24, rows = 18;
     RtlConfig config{};
-    double percent = 2;
+    double percent = 0.1;  ///< what the rare cases may cost that the simulator does not time
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -134,7 +134,7 @@ TEST_P(RtuOnScene, GivesTheHitsAndCountsAndCyclesOfTheSimulator) {
     const model::Camera camera = model::automatic_camera(scene.mesh, scene.image);
     for (const auto kind : {WorkloadKind::Primary, WorkloadKind::Diffuse}) {
         SCOPED_TRACE(kind == WorkloadKind::Primary ? "primary" : "diffuse");
-        compare({.slots = 128}, scene, scene.rays(kind, camera, 48 * ray_scale(), 36 * ray_scale()), 2);
+        compare({.slots = 128}, scene, scene.rays(kind, camera, 48 * ray_scale(), 36 * ray_scale()), 0.5);
     }
 }
 

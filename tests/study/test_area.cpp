@@ -166,7 +166,7 @@ TEST(AreaStudy, RunsEveryModeOnTheSameRays) {
         const double mgates = report.modes[std::size_t(row.mode)].machine_gates / 1e6;
         EXPECT_NEAR(row.mrps_per_mgate, row.mrps / mgates, 1e-9);
         EXPECT_GE(row.pair_limit_mrps, row.mrps * 0.999);
-        EXPECT_TRUE(row.mode == PairMode::DualShared || row.replays == 0);
+        EXPECT_EQ(row.replays, single.replays);  // of hit units, which no build of the first pass changes
     }
     EXPECT_EQ(in_mode(report, report.rows[0], PairMode::Single).tester_cycles, report.rows[0].triangle_tests);
     EXPECT_LT(report.modes[0].machine_gates, report.modes[2].machine_gates);
