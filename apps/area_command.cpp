@@ -16,9 +16,9 @@
 #include "apps/report_output.hpp"
 #include "model/error.hpp"
 #include "sim/presets.hpp"
-#include "study/area_charts.hpp"
-#include "study/area_output.hpp"
-#include "study/area_study.hpp"
+#include "study/area/area_charts.hpp"
+#include "study/area/area_output.hpp"
+#include "study/area/area_study.hpp"
 #include "study/output_file.hpp"
 
 namespace rtu::apps {

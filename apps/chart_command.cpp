@@ -14,7 +14,7 @@
 #include "apps/progress.hpp"
 #include "apps/standard_output.hpp"
 #include "model/error.hpp"
-#include "study/chart_study.hpp"
+#include "study/chart/chart_study.hpp"
 #include "study/output_file.hpp"
 
 namespace rtu::apps {

@@ -3,7 +3,7 @@
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
 #include "model/error.hpp"
-#include "study/chart_format.hpp"
+#include "study/chart/chart_format.hpp"
 
 namespace rtu::apps {
 

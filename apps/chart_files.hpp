@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/report_output.hpp"
-#include "study/any_chart.hpp"
+#include "study/chart/any_chart.hpp"
 #include "study/output_file.hpp"
 
 namespace rtu::apps {

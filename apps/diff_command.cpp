@@ -5,7 +5,7 @@
 
 #include "apps/exit_code.hpp"
 #include "apps/standard_output.hpp"
-#include "study/result_diff.hpp"
+#include "study/report/result_diff.hpp"
 
 namespace rtu::apps {
 namespace {

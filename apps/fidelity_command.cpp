@@ -16,7 +16,7 @@
 #include "model/error.hpp"
 #include "sim/effective_config.hpp"
 #include "sim/presets.hpp"
-#include "study/fidelity_output.hpp"
+#include "study/fidelity/fidelity_output.hpp"
 #include "study/output_file.hpp"
 
 namespace rtu::apps {
@@ -80,7 +80,7 @@ void add_output_options(CLI::App& fidelity, Arguments& arguments) {
 std::vector<study::NamedMachine> machines_of(const std::string& presets) {
     std::vector<study::NamedMachine> machines;
     for (const std::string& name : parse_list("--preset", presets)) {
-        machines.push_back({name, sim::load_config(name, std::nullopt, {}).config});
+        machines.push_back({name, sim::load_config(name, std::nullopt, {})});
     }
     if (machines.empty()) throw Error("--preset: expected at least one machine, got ''");
     return machines;

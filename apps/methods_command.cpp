@@ -13,8 +13,8 @@
 #include "apps/progress.hpp"
 #include "apps/report_output.hpp"
 #include "model/error.hpp"
-#include "study/methods_study.hpp"
-#include "study/methods_text.hpp"
+#include "study/methods/methods_study.hpp"
+#include "study/methods/methods_text.hpp"
 #include "study/output_file.hpp"
 
 namespace rtu::apps {

@@ -9,7 +9,7 @@
 
 #include "model/camera.hpp"
 #include "model/workload.hpp"
-#include "study/fidelity_levels.hpp"
+#include "study/fidelity/fidelity_levels.hpp"
 #include "study/run_options.hpp"
 
 // What the words of a command line mean, for all commands that run scenes. All throw Error, in one line that

@@ -13,10 +13,10 @@
 #include "apps/progress.hpp"
 #include "apps/standard_output.hpp"
 #include "study/output_file.hpp"
-#include "study/pairing_html.hpp"
-#include "study/pairing_json.hpp"
-#include "study/pairing_study.hpp"
-#include "study/pairing_text.hpp"
+#include "study/pairing/pairing_html.hpp"
+#include "study/pairing/pairing_json.hpp"
+#include "study/pairing/pairing_study.hpp"
+#include "study/pairing/pairing_text.hpp"
 
 namespace rtu::apps {
 namespace {

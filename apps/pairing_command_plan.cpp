@@ -10,9 +10,9 @@
 #include "model/error.hpp"
 #include "model/one_line.hpp"
 #include "sim/presets.hpp"
-#include "study/chart.hpp"
+#include "study/chart/chart.hpp"
 #include "study/output_file.hpp"
-#include "study/pairing_study.hpp"
+#include "study/pairing/pairing_study.hpp"
 
 namespace rtu::apps {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/machine_options.hpp"
-#include "study/pairing_options.hpp"
+#include "study/pairing/pairing_options.hpp"
 #include "study/run_options.hpp"
 
 namespace rtu::apps {

@@ -17,8 +17,8 @@
 #include "model/error.hpp"
 #include "model/methods/emulated.hpp"
 #include "study/output_file.hpp"
-#include "study/precision_ladder.hpp"
-#include "study/precision_output.hpp"
+#include "study/precision/precision_ladder.hpp"
+#include "study/precision/precision_output.hpp"
 
 namespace rtu::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/machine_options.hpp"
-#include "study/fidelity_levels.hpp"
+#include "study/fidelity/fidelity_levels.hpp"
 #include "study/run_options.hpp"
 
 namespace rtu::apps {

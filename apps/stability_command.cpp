@@ -19,9 +19,9 @@
 #include "apps/report_output.hpp"
 #include "model/error.hpp"
 #include "study/output_file.hpp"
-#include "study/precision_ladder.hpp"
-#include "study/precision_output.hpp"
-#include "study/stability_run.hpp"
+#include "study/precision/precision_ladder.hpp"
+#include "study/precision/precision_output.hpp"
+#include "study/stability/stability_run.hpp"
 
 namespace rtu::apps {
 namespace {

@@ -13,7 +13,7 @@
 #include "apps/stream_command_plan.hpp"
 #include "sim/presets.hpp"
 #include "study/output_file.hpp"
-#include "study/stream_output.hpp"
+#include "study/stream/stream_output.hpp"
 
 namespace rtu::apps {
 namespace {

@@ -7,7 +7,7 @@
 #include "model/error.hpp"
 #include "model/one_line.hpp"
 #include "sim/presets.hpp"
-#include "study/chart.hpp"
+#include "study/chart/chart.hpp"
 #include "study/output_file.hpp"
 
 namespace rtu::apps {

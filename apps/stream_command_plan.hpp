@@ -7,7 +7,7 @@
 
 #include "apps/machine_options.hpp"
 #include "apps/report_output.hpp"
-#include "study/stream_study.hpp"
+#include "study/stream/stream_study.hpp"
 
 namespace rtu::apps {
 

@@ -14,9 +14,9 @@
 #include "apps/sweep_progress.hpp"
 #include "model/error.hpp"
 #include "study/output_file.hpp"
-#include "study/sweep_export.hpp"
-#include "study/sweep_run.hpp"
-#include "study/sweep_text.hpp"
+#include "study/sweep/sweep_export.hpp"
+#include "study/sweep/sweep_run.hpp"
+#include "study/sweep/sweep_text.hpp"
 
 namespace rtu::apps {
 namespace {

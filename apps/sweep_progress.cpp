@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "study/sweep_text.hpp"
+#include "study/sweep/sweep_text.hpp"
 
 namespace rtu::apps {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "study/sweep_run.hpp"
+#include "study/sweep/sweep_run.hpp"
 
 namespace rtu::apps {
 

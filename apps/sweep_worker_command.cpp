@@ -18,9 +18,9 @@
 #include "apps/sweep_command.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
-#include "study/sweep_journal.hpp"
-#include "study/sweep_point.hpp"
-#include "study/sweep_worker.hpp"
+#include "study/sweep/sweep_journal.hpp"
+#include "study/sweep/sweep_point.hpp"
+#include "study/sweep/sweep_worker.hpp"
 
 namespace rtu::apps {
 namespace {

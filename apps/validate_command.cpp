@@ -20,9 +20,9 @@
 #include "model/error.hpp"
 #include "model/one_line.hpp"
 #include "study/output_file.hpp"
-#include "study/validate_configs.hpp"
-#include "study/validate_output.hpp"
-#include "study/validate_study.hpp"
+#include "study/validate/validate_configs.hpp"
+#include "study/validate/validate_output.hpp"
+#include "study/validate/validate_study.hpp"
 
 namespace rtu::apps {
 namespace {

@@ -6,7 +6,7 @@
 #include "model/camera.hpp"
 #include "model/traversal.hpp"
 #include "model/workload.hpp"
-#include "study/embree_oracle.hpp"
+#include "study/oracle/embree_oracle.hpp"
 
 namespace rtu::bench {
 namespace {

@@ -2,7 +2,7 @@
 # cmake -DOUTPUT=... -DCSV=... -P EmbedGates.cmake
 file(READ "${CSV}" text)
 file(WRITE "${OUTPUT}" "// Generated from rtl_ref/gates/gates.csv by cmake/EmbedGates.cmake.
-#include \"study/embedded_gates.hpp\"
+#include \"study/area/embedded_gates.hpp\"
 
 namespace rtu::study {
 

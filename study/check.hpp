@@ -7,9 +7,9 @@
 #include "model/mesh.hpp"
 #include "model/traversal.hpp"
 #include "model/workload.hpp"
-#include "study/embree_oracle.hpp"
-#include "study/exact_oracle.hpp"
-#include "study/run_report.hpp"
+#include "study/oracle/embree_oracle.hpp"
+#include "study/oracle/exact_oracle.hpp"
+#include "study/report/run_report.hpp"
 
 namespace rtu::study {
 

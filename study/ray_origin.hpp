@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "study/report/run_report.hpp"
 #include "study/run_options.hpp"
-#include "study/run_report.hpp"
 #include "study/scene_steps.hpp"
 #include "study/workload_stream.hpp"
 #include "traces/trace_header.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "study/fidelity_study.hpp"
+#include "study/fidelity/fidelity_study.hpp"
 #include "study/run_options.hpp"
 
 namespace rtu::study {

@@ -7,10 +7,10 @@
 
 #include "model/error.hpp"
 #include "sim/machine.hpp"
+#include "study/chart/pixel_data.hpp"
 #include "study/check.hpp"
 #include "study/checked_hits.hpp"
 #include "study/cpu_time.hpp"
-#include "study/pixel_data.hpp"
 #include "study/ray_origin.hpp"
 #include "study/scene_steps.hpp"
 #include "study/workload_stream.hpp"

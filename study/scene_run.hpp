@@ -1,7 +1,7 @@
 #pragma once
 
+#include "study/report/run_report.hpp"
 #include "study/run_options.hpp"
-#include "study/run_report.hpp"
 
 namespace rtu::study {
 

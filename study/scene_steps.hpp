@@ -11,8 +11,8 @@
 #include "model/workload.hpp"
 #include "sim/config.hpp"
 #include "sim/machine.hpp"
+#include "study/report/run_report.hpp"
 #include "study/run_options.hpp"
-#include "study/run_report.hpp"
 
 // The steps from a scene's file to the counts of a simulation, for everything that runs scenes.
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "study/sqlite.hpp"
+#include "study/sweep/sqlite.hpp"
 #include "tests/apps/command_line.hpp"
 
 namespace rtu::test {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <optional>
 
-#include "study/sqlite.hpp"
+#include "study/sweep/sqlite.hpp"
 #include "tests/apps/command_line.hpp"
 
 namespace rtu::test {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "study/pairing_report.hpp"
-#include "study/pairing_study.hpp"
+#include "study/pairing/pairing_report.hpp"
+#include "study/pairing/pairing_study.hpp"
 
 namespace rtu::test {
 

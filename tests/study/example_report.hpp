@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/run_report.hpp"
+#include "study/report/run_report.hpp"
 
 namespace rtu::test {
 

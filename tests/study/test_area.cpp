@@ -5,10 +5,10 @@
 
 #include "sim/effective_config.hpp"
 #include "sim/presets.hpp"
-#include "study/area_charts.hpp"
-#include "study/area_output.hpp"
-#include "study/area_study.hpp"
-#include "study/area_tables.hpp"
+#include "study/area/area_charts.hpp"
+#include "study/area/area_output.hpp"
+#include "study/area/area_study.hpp"
+#include "study/area/area_tables.hpp"
 
 namespace rtu::study {
 namespace {

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "model/error.hpp"
-#include "study/chart.hpp"
-#include "study/html_page.hpp"
-#include "study/pairing_charts.hpp"
-#include "study/pairing_html.hpp"
+#include "study/chart/chart.hpp"
+#include "study/chart/html_page.hpp"
+#include "study/pairing/pairing_charts.hpp"
+#include "study/pairing/pairing_html.hpp"
 #include "tests/study/example_pairing.hpp"
 
 namespace rtu::study {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "model/error.hpp"
-#include "study/any_chart.hpp"
+#include "study/chart/any_chart.hpp"
 
 namespace rtu::study {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "model/parallel.hpp"
 #include "study/check.hpp"
-#include "study/exact_oracle.hpp"
+#include "study/oracle/exact_oracle.hpp"
 #include "tests/model/meshes.hpp"
 
 namespace rtu::study {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "model/builtin_scene.hpp"
-#include "study/fidelity_levels.hpp"
-#include "study/fidelity_study.hpp"
+#include "study/fidelity/fidelity_levels.hpp"
+#include "study/fidelity/fidelity_study.hpp"
 #include "study/scene_steps.hpp"
 #include "tests/sim/machine_fixture.hpp"
 

@@ -6,11 +6,11 @@
 #include <random>
 #include <set>
 
-#include "study/analytic_model.hpp"
-#include "study/fidelity_estimate.hpp"
-#include "study/fidelity_study.hpp"
-#include "study/queueing.hpp"
-#include "study/reuse_distance.hpp"
+#include "study/fidelity/analytic_model.hpp"
+#include "study/fidelity/fidelity_estimate.hpp"
+#include "study/fidelity/fidelity_study.hpp"
+#include "study/fidelity/queueing.hpp"
+#include "study/fidelity/reuse_distance.hpp"
 
 namespace rtu::study {
 namespace {

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "model/error.hpp"
-#include "study/chart_study.hpp"
-#include "study/method_charts.hpp"
-#include "study/method_charts_rows.hpp"
+#include "study/chart/chart_study.hpp"
+#include "study/methods/method_charts.hpp"
+#include "study/methods/method_charts_rows.hpp"
 
 namespace rtu::study {
 namespace {

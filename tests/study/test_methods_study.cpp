@@ -8,9 +8,9 @@
 
 #include "model/traversal.hpp"
 #include "sim/config.hpp"
-#include "study/methods_leaf_mix.hpp"
-#include "study/methods_study.hpp"
-#include "study/methods_text.hpp"
+#include "study/methods/methods_leaf_mix.hpp"
+#include "study/methods/methods_study.hpp"
+#include "study/methods/methods_text.hpp"
 #include "study/scene_steps.hpp"
 
 namespace rtu::study {

@@ -4,8 +4,8 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
-#include "study/oracle_rational.hpp"
-#include "study/oracle_triangle.hpp"
+#include "study/oracle/oracle_rational.hpp"
+#include "study/oracle/oracle_triangle.hpp"
 #include "tests/model/meshes.hpp"
 
 namespace rtu::study {

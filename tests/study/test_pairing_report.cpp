@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "study/pairing_json.hpp"
-#include "study/pairing_tables.hpp"
-#include "study/pairing_text.hpp"
+#include "study/pairing/pairing_json.hpp"
+#include "study/pairing/pairing_tables.hpp"
+#include "study/pairing/pairing_text.hpp"
 #include "tests/study/example_pairing.hpp"
 
 namespace rtu::study {

@@ -5,8 +5,8 @@
 
 #include "model/error.hpp"
 #include "model/workload.hpp"
-#include "study/pairing_rotation.hpp"
-#include "study/pairing_study.hpp"
+#include "study/pairing/pairing_rotation.hpp"
+#include "study/pairing/pairing_study.hpp"
 #include "study/scene_run.hpp"
 #include "study/scene_steps.hpp"
 

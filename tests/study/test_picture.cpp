@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "study/picture.hpp"
+#include "study/chart/picture.hpp"
 
 namespace rtu::study {
 namespace {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "model/methods/emulated.hpp"
-#include "study/precision_area.hpp"
-#include "study/precision_ladder.hpp"
-#include "study/precision_output.hpp"
-#include "study/precision_tables.hpp"
+#include "study/precision/precision_area.hpp"
+#include "study/precision/precision_ladder.hpp"
+#include "study/precision/precision_output.hpp"
+#include "study/precision/precision_tables.hpp"
 #include "tests/model/meshes.hpp"
 
 namespace rtu::study {

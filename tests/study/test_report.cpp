@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "study/report_csv.hpp"
-#include "study/report_json.hpp"
-#include "study/report_text.hpp"
+#include "study/report/report_csv.hpp"
+#include "study/report/report_json.hpp"
+#include "study/report/report_text.hpp"
 #include "study/text_table.hpp"
 #include "tests/study/example_report.hpp"
 

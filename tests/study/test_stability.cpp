@@ -7,10 +7,10 @@
 #include <map>
 
 #include "model/error.hpp"
-#include "study/stability_aims.hpp"
-#include "study/stability_metamorphic.hpp"
-#include "study/stability_probes.hpp"
-#include "study/stability_run.hpp"
+#include "study/stability/stability_aims.hpp"
+#include "study/stability/stability_metamorphic.hpp"
+#include "study/stability/stability_probes.hpp"
+#include "study/stability/stability_run.hpp"
 
 namespace rtu::study {
 namespace {

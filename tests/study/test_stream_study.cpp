@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "model/error.hpp"
-#include "study/stream_balance.hpp"
-#include "study/stream_input.hpp"
-#include "study/stream_output.hpp"
-#include "study/stream_published.hpp"
-#include "study/stream_study.hpp"
+#include "study/stream/stream_balance.hpp"
+#include "study/stream/stream_input.hpp"
+#include "study/stream/stream_output.hpp"
+#include "study/stream/stream_published.hpp"
+#include "study/stream/stream_study.hpp"
 #include "tests/model/meshes.hpp"
 
 namespace rtu::study {

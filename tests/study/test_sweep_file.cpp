@@ -4,7 +4,7 @@
 #include <set>
 
 #include "model/error.hpp"
-#include "study/sweep_designs.hpp"
+#include "study/sweep/sweep_designs.hpp"
 #include "tests/model/gltf_builder.hpp"
 
 namespace rtu::study {

@@ -6,12 +6,12 @@
 #include <fstream>
 
 #include "model/error.hpp"
-#include "study/child_process.hpp"
-#include "study/result_diff.hpp"
-#include "study/sweep_database.hpp"
-#include "study/sweep_executor.hpp"
-#include "study/sweep_front.hpp"
-#include "study/sweep_journal.hpp"
+#include "study/report/result_diff.hpp"
+#include "study/sweep/child_process.hpp"
+#include "study/sweep/sweep_database.hpp"
+#include "study/sweep/sweep_executor.hpp"
+#include "study/sweep/sweep_front.hpp"
+#include "study/sweep/sweep_journal.hpp"
 #include "tests/model/gltf_builder.hpp"
 
 namespace rtu::study {

@@ -5,9 +5,9 @@
 
 #include "sim/effective_config.hpp"
 #include "sim/machine.hpp"
-#include "study/validate_configs.hpp"
-#include "study/validate_output.hpp"
-#include "study/validate_study.hpp"
+#include "study/validate/validate_configs.hpp"
+#include "study/validate/validate_output.hpp"
+#include "study/validate/validate_study.hpp"
 
 namespace rtu::study {
 namespace {

@@ -5,8 +5,8 @@
 #include <atomic>
 
 #include "model/parallel.hpp"
-#include "study/stability_aims.hpp"
-#include "study/stability_run.hpp"
+#include "study/stability/stability_aims.hpp"
+#include "study/stability/stability_run.hpp"
 
 namespace rtu::study {
 namespace {

@@ -1,0 +1,119 @@
+#include "study/sweep/sweep_tree.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "model/error.hpp"
+#include "study/output_file.hpp"
+#include "study/ray_origin.hpp"
+#include "traces/trace_writer.hpp"
+#include "traces/visit_recorder.hpp"
+
+namespace rtu::study {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+fs::path trace_path(const fs::path& folder, const std::string& name) { return folder / (name + ".rtutrace"); }
+fs::path facts_path(const fs::path& folder, const std::string& name) { return folder / (name + ".json"); }
+
+// What the recorded traversals take in memory, as SweepTree has them.
+std::uint64_t memory_bytes(const traces::VisitChunk& chunk) {
+    return chunk.rays.size() * sizeof(traces::WalkedRay) + chunk.visits.size() * sizeof(traces::Visit) +
+           chunk.pair_tests.size() * sizeof(traces::PairTest);
+}
+
+std::uint64_t record(const RunOptions& options, const PreparedScene& scene, const fs::path& path) {
+    std::error_code error;
+    fs::remove(path.string() + ".partial", error);  // of a process that was killed
+    const std::shared_ptr<traces::RayReader> rays = make_ray_reader(options, scene);
+    traces::TraceWriter writer(path, trace_header(scene, traces::TraceContent::Visits));
+    std::uint64_t bytes = 0;
+    while (const std::optional<traces::RayChunk> chunk = rays->next()) {
+        for (const traces::VisitChunk& visits : record_visits(*chunk, scene.built.image)) {
+            bytes += memory_bytes(visits);
+            writer.add(visits);
+        }
+    }
+    writer.finish();
+    if (writer.counts().empty()) throw Error("{}: expected rays, found none", options.rays->file.string());
+    return bytes;
+}
+
+bool is_visit_trace(const RunOptions& options) {
+    if (!options.rays || options.rays->format != traces::RayFormat::Trace) return false;
+    return traces::TraceReader(options.rays->file).header().content == traces::TraceContent::Visits;
+}
+
+std::uint64_t survey(const fs::path& path) {
+    traces::TraceReader reader(path);
+    std::uint64_t bytes = 0;
+    while (const auto chunk = reader.next_visits()) bytes += memory_bytes(*chunk);
+    return bytes;
+}
+
+Json read_facts(const fs::path& folder, const std::string& name) {
+    const fs::path path = facts_path(folder, name);
+    std::ifstream stream(path);
+    Json facts = Json::parse(stream, nullptr, false);
+    if (!facts.is_object()) throw Error("{}: expected what a sweep prepared", path.string());
+    return facts;
+}
+
+}  // namespace
+
+void prepare_tree(const RunOptions& options, const SceneSource& source, const fs::path& folder,
+                  const std::string& name) {
+    if (fs::exists(facts_path(folder, name))) return;
+    const std::unique_ptr<PreparedScene> scene = prepare_scene(options, source);
+    const bool is_recorded = is_visit_trace(options);
+    const fs::path trace = is_recorded ? fs::absolute(options.rays->file) : trace_path(folder, name);
+    const std::uint64_t visit_bytes = is_recorded ? survey(trace) : record(options, *scene, trace);
+    const model::MemoryImage& image = scene->built.image;
+    const Json facts{{"trace", is_recorded ? trace.string() : trace.filename().string()},
+                     {"visit_bytes", visit_bytes},
+                     {"width", image.width},
+                     {"depth", image.depth},
+                     {"size_bytes", image.size_bytes()},
+                     {"node_count", image.node_count},
+                     {"leaf_count", image.leaf_count},
+                     {"pair_count", image.pair_count},
+                     {"paired_percent", scene->report.pairing.paired_percent}};
+    const OutputFile file{facts_path(folder, name),
+                          facts.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"};
+    write_files({&file, 1});
+}
+
+std::uint64_t tree_memory_bytes(const fs::path& folder, const std::string& name) {
+    const Json facts = read_facts(folder, name);
+    return facts.at("visit_bytes").get<std::uint64_t>() + facts.at("size_bytes").get<std::uint64_t>();
+}
+
+SweepTree::SweepTree(const fs::path& folder, const std::string& name) {
+    const Json facts = read_facts(folder, name);
+    image_.width = facts.at("width");
+    image_.depth = facts.at("depth");
+    image_.node_count = facts.at("node_count");
+    image_.leaf_count = facts.at("leaf_count");
+    image_.pair_count = facts.at("pair_count");
+    image_.blocks.resize(facts.at("size_bytes").get<std::size_t>() / model::image_block_bytes);
+    paired_percent_ = facts.at("paired_percent");
+    traces::TraceReader reader(folder / facts.at("trace").get<std::string>());
+    while (auto chunk = reader.next_visits()) {
+        chunks_.push_back(std::make_shared<const traces::VisitChunk>(std::move(*chunk)));
+    }
+}
+
+ChunkSource SweepTree::chunks() const {
+    const auto next_chunk = std::make_shared<std::size_t>(0);
+    const auto next = [this, next_chunk]() -> std::optional<WorkloadChunk> {
+        if (*next_chunk == chunks_.size()) return std::nullopt;
+        const auto& chunk = chunks_[(*next_chunk)++];
+        return WorkloadChunk{chunk->workload, chunk->kind, {}, chunk};
+    };
+    return {next, [this, next_chunk] { return double(*next_chunk) / double(chunks_.size()); }};
+}
+
+}  // namespace rtu::study
