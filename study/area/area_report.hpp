@@ -8,6 +8,7 @@
 
 #include "sim/config.hpp"
 #include "study/area/area_model.hpp"
+#include "study/area/area_objective.hpp"
 
 namespace rtu::study {
 
@@ -24,7 +25,7 @@ struct MachineArea {
 
     [[nodiscard]] AreaTotal rtu() const { return total(parts); }
     /// All RTUs of the machine, without the L2.
-    [[nodiscard]] double gates() const { return rtu().gates.gates * machine.config.rtu.count; }
+    [[nodiscard]] double gates() const { return machine_gates(machine.config); }
     /// The parts of one unit of the RTU, together.
     [[nodiscard]] AreaTotal unit(std::string_view name) const;
 };

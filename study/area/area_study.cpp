@@ -7,6 +7,7 @@
 
 #include "model/error.hpp"
 #include "sim/machine.hpp"
+#include "study/area/area_objective.hpp"
 #include "study/scene_steps.hpp"
 #include "study/version.hpp"
 
@@ -52,7 +53,7 @@ AreaRow row_of(const sim::MachineResult& result, const sim::Config& config, cons
     row.tester_cycles = pair_counter(result, "tester_cycles");
     row.hit_unit_cycles = pair_counter(result, "hit_unit_cycles");
     row.mrps = mrps(row.rays, row.cycles, config.clock_mhz);
-    row.mrps_per_mgate = row.mrps / (area.machine_gates / 1e6);
+    row.mrps_per_mgate = mrps_per_mgate(config, result);
     const double held = held_cycles(row, config);
     row.pair_limit_mrps = held > 0 ? double(row.rays) / held * config.clock_mhz : 0;
     row.pair_limit_mrps_per_mgate = row.pair_limit_mrps / (area.pair.gates.gates * config.rtu.count / 1e6);

@@ -142,6 +142,29 @@ TEST(AreaModel, GrowsWithEveryResource) {
     EXPECT_DOUBLE_EQ(ps_per_gate(0, 1000), 0);
 }
 
+// Whatever a sweep may ask for has an area.
+TEST(AreaObjective, IsThereForEveryMachine) {
+    for (const char* width : {"bvh.width=2", "bvh.width=4", "bvh.width=6", "bvh.width=8"}) {
+        for (const char* other : {"rtu.box.boxes_per_cycle=1", "rtu.box.boxes_per_cycle=64",
+                                  "rtu.pair.hit_units=0", "rtu.ray_slots=1", "rtu.stack_entries=1",
+                                  "l1.ways=1", "l1.banks=32", "rtu.results_per_cycle=1"}) {
+            SCOPED_TRACE(fmt::format("{} {}", width, other));
+            EXPECT_GT(machine_gates(config_with({width, other})), 1e5);
+        }
+    }
+}
+
+TEST(AreaObjective, IsTheRateOverTheGates) {
+    const sim::Config config = config_with({"rtu.count=2", "clock_mhz=500"});
+    sim::MachineResult result;
+    result.ray_count = 3000;
+    result.cycles = 1000;
+    const double mgates = 2 * total(rtu_area(config)).gates.gates / 1e6;
+    EXPECT_NEAR(mrps_per_mgate(config, result), 3.0 * 500 / mgates, 1e-9);
+    result.cycles = 0;
+    EXPECT_EQ(mrps_per_mgate(config, result), 0);
+}
+
 AreaOptions builtin_options() {
     AreaOptions options;
     options.config = config_with({});
