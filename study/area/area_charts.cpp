@@ -21,25 +21,24 @@ std::vector<std::string> names_of(const AreaReport& report, std::string AreaRow:
     return names;
 }
 
-double index_of(const std::vector<std::string>& names, const std::string& name) {
-    return double(std::ranges::find(names, name) - names.begin());
-}
-
-// A bar for each scene and workload: the change of `bar`; a diamond: the change of `mark`.
+// Against two independent testers, for each scene: a bar for the change of `bar` in each other mode, a
+// diamond for that of `mark`.
 Chart change_chart(const AreaReport& report, Member bar, Member mark) {
     Chart chart;
     chart.groups = names_of(report, &AreaRow::scene);
-    const std::vector<std::string> workloads = names_of(report, &AreaRow::workload);
-    for (std::size_t i = 0; i < workloads.size(); ++i) {
+    chart.y_label = "change of MRPS per million gates, %";
+    chart.mark_name = "change of MRPS, %";
+    for (const PairMode mode : {PairMode::Single, PairMode::DualShared}) {
         ChartSeries& series = chart.series.emplace_back();
-        series.name = workloads[i];
-        series.colour = i;
-        for (const AreaRow& row : report.rows) {
-            if (row.workload != workloads[i] || row.mode != PairMode::DualShared) continue;
-            const AreaRow& dual = in_mode(report, row, PairMode::DualIndependent);
-            const double x = index_of(chart.groups, row.scene);
-            series.points.emplace_back(x, change_percent(dual.*bar, row.*bar).value_or(0));
-            series.marks.emplace_back(x, change_percent(dual.*mark, row.*mark).value_or(0));
+        series.name = sim::pair_mode_names()[std::size_t(mode)];
+        series.colour = std::size_t(mode);
+        for (std::size_t i = 0; i < chart.groups.size(); ++i) {
+            const auto change = [&](Member rate) {
+                const double before = scene_rate(report, chart.groups[i], PairMode::DualIndependent, rate);
+                return change_percent(before, scene_rate(report, chart.groups[i], mode, rate)).value_or(0);
+            };
+            series.points.emplace_back(double(i), change(bar));
+            series.marks.emplace_back(double(i), change(mark));
         }
     }
     return chart;
@@ -48,20 +47,18 @@ Chart change_chart(const AreaReport& report, Member bar, Member mark) {
 Chart unit_chart(const AreaReport& report) {
     Chart chart = change_chart(report, &AreaRow::pair_limit_mrps_per_mgate, &AreaRow::pair_limit_mrps);
     chart.name = "area_pair_unit";
-    chart.title = fmt::format("Pair unit alone: sharing the common edge saves {:.1f} % of its gates",
-                              saved_pair_percent(report));
-    chart.mark_name = "change of MRPS, %";
-    chart.y_label = "change of MRPS per million gates, %";
+    chart.title =
+        fmt::format("Pair unit of {} alone, against two independent testers; sharing saves {:.1f} % of it",
+                    report.machine.machine.name, saved_pair_percent(report));
     return chart;
 }
 
 Chart machine_chart(const AreaReport& report) {
     Chart chart = change_chart(report, &AreaRow::mrps_per_mgate, &AreaRow::mrps);
     chart.name = "area_machine";
-    chart.title = fmt::format("Whole machine: sharing the common edge saves {:.1f} % of its gates",
-                              saved_machine_percent(report));
-    chart.mark_name = "change of MRPS, %";
-    chart.y_label = "change of MRPS per million gates, %";
+    chart.title =
+        fmt::format("Machine {}, against two independent testers; sharing saves {:.1f} % of its gates",
+                    report.machine.machine.name, saved_machine_percent(report));
     return chart;
 }
 
@@ -77,15 +74,8 @@ Chart mode_chart(const AreaReport& report) {
         series.name = sim::pair_mode_names()[std::size_t(mode.mode)];
         series.colour = std::size_t(mode.mode);
         for (std::size_t i = 0; i < chart.groups.size(); ++i) {
-            std::uint64_t rays = 0, cycles = 0;
-            for (const AreaRow& row : report.rows) {
-                if (row.scene != chart.groups[i] || row.mode != mode.mode) continue;
-                rays += row.rays;
-                cycles += row.cycles;
-            }
-            const double mrps =
-                cycles == 0 ? 0 : double(rays) / double(cycles) * report.machine.machine.config.clock_mhz;
-            series.points.emplace_back(double(i), mrps / (mode.machine_gates / 1e6));
+            series.points.emplace_back(
+                double(i), scene_rate(report, chart.groups[i], mode.mode, &AreaRow::mrps_per_mgate));
         }
     }
     return chart;

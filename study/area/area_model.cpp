@@ -87,10 +87,11 @@ void add_l1(const sim::Config& config, std::vector<AreaPart>& parts) {
     parts.push_back(array("l1", "requests, fills, write-backs", 1, 4 * 256 + 20 * 8.0 * cache.line_bytes,
                           "4 sectors, 20 lines"));
     const GateCounts& few = gate_counts("cache_control:Ways=4");
-    const GateCounts way = times(1.0 / 12, minus(gate_counts("cache_control:Ways=16"), few));
+    const GateCounts& many = gate_counts("cache_control:Ways=16");
+    const GateCounts way = times(1.0 / 12, minus(many, few));
     const double banks = cache.banks / 4.0;
     GateCounts control = times(banks, minus(few, times(4, way)) + times(cache.ways, way));
-    control.depth = few.depth;
+    control.depth = few.depth + (double(cache.ways) - 4) / 12 * (many.depth - few.depth);
     parts.push_back(formula("l1", "control", 1, control, "cache_control, linear in ways and banks"));
     parts.push_back(scaled("l1", "data paths", 1, "cache_data", banks));
 }

@@ -72,6 +72,11 @@ struct AreaReport {
 /// The row of the same scene and workload in that mode.
 [[nodiscard]] const AreaRow& in_mode(const AreaReport& report, const AreaRow& row, sim::PairMode mode);
 
+/// A rate of all workloads of a scene together in one mode: their rays over the sum of their times, `rate`
+/// being one of AreaRow's; workloads whose rate is 0 are left out.
+[[nodiscard]] double scene_rate(const AreaReport& report, std::string_view scene, sim::PairMode mode,
+                                double AreaRow::*rate);
+
 /// What dual_shared saves against dual_independent in gates of the pair unit, and of the machine, in percent.
 [[nodiscard]] double saved_pair_percent(const AreaReport& report);
 [[nodiscard]] double saved_machine_percent(const AreaReport& report);

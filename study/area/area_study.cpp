@@ -110,6 +110,16 @@ const AreaRow& in_mode(const AreaReport& report, const AreaRow& row, PairMode mo
     return *found;
 }
 
+double scene_rate(const AreaReport& report, std::string_view scene, PairMode mode, double AreaRow::*rate) {
+    double rays = 0, time = 0;
+    for (const AreaRow& row : report.rows) {
+        if (row.scene != scene || row.mode != mode || row.*rate <= 0) continue;
+        rays += double(row.rays);
+        time += double(row.rays) / (row.*rate);
+    }
+    return time > 0 ? rays / time : 0;
+}
+
 double saved_pair_percent(const AreaReport& report) {
     const auto gates = [&](PairMode mode) { return report.modes[std::size_t(mode)].pair.gates.gates; };
     return 100 * (1 - gates(PairMode::DualShared) / gates(PairMode::DualIndependent));

@@ -56,7 +56,7 @@ TEST_F(AreaCommand, WritesPicturesAndAPage) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, IsEmpty());
     EXPECT_THAT(content("pictures/area_machine.png"), StartsWith("\x89PNG"));
-    EXPECT_THAT(content("page.html"), HasSubstr("sharing the common edge saves"));
+    EXPECT_THAT(content("page.html"), HasSubstr("Sharing the common edge saves"));
 }
 
 TEST_F(AreaCommand, RefusesBadInputInOneLine) {

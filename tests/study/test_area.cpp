@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/config_keys.hpp"
 #include "sim/effective_config.hpp"
 #include "sim/presets.hpp"
 #include "study/area/area_charts.hpp"
@@ -14,6 +15,7 @@ namespace rtu::study {
 namespace {
 
 using sim::PairMode;
+using testing::AllOf;
 using testing::HasSubstr;
 
 sim::Config config_with(const std::vector<std::string>& sets) {
@@ -124,6 +126,13 @@ TEST(AreaModel, CountsBitsOfArraysByTheirFormulas) {
     EXPECT_EQ(bits("replies"), 16 * (1024 + 7 + 3 * 4));
 }
 
+TEST(AreaModel, HasTheCountedDepthOfTheControlOfTheL1) {
+    for (const char* ways : {"4", "16"}) {
+        const MachineArea area = machine_area({"", config_with({fmt::format("l1.ways={}", ways)})});
+        EXPECT_EQ(area.unit("l1").gates.depth, gate_counts(fmt::format("cache_control:Ways={}", ways)).depth);
+    }
+}
+
 TEST(AreaModel, GrowsWithEveryResource) {
     const auto area_of = [](const std::vector<std::string>& sets) {
         return machine_area({"", config_with(sets)});
@@ -165,6 +174,17 @@ TEST(AreaObjective, IsTheRateOverTheGates) {
     EXPECT_EQ(mrps_per_mgate(config, result), 0);
 }
 
+TEST(AreaModel, LeavesEachGateTheTimeThatTheSourceOfTheClockSays) {
+    const sim::EffectiveConfig config = sim::load_config("default", std::nullopt, {});
+    const MachineArea area = machine_area({"", config.config});
+    double depth = 0;
+    for (const char* unit : {"box", "pair", "scheduler", "queues"})
+        depth = std::max(depth, area.unit(unit).gates.depth);
+    EXPECT_THAT(config.origins[sim::config_key_index("clock_mhz", "")].source,
+                AllOf(HasSubstr(fmt::format("{:.1f} ps", ps_per_gate(depth, config.config.clock_mhz))),
+                      HasSubstr(fmt::format("the {:.0f} gates", depth))));
+}
+
 AreaOptions builtin_options() {
     AreaOptions options;
     options.config = config_with({});
@@ -198,6 +218,20 @@ TEST(AreaStudy, RunsEveryModeOnTheSameRays) {
                 100 * (1 - report.modes[2].pair.gates.gates / report.modes[1].pair.gates.gates), 1e-9);
 }
 
+TEST(AreaReport, AddsUpTheWorkloadsOfAScene) {
+    AreaReport report;
+    for (const double mrps : {100.0, 25.0, 0.0}) {
+        AreaRow& row = report.rows.emplace_back();
+        row.scene = "hall";
+        row.mode = PairMode::Single;
+        row.rays = 1000;
+        row.mrps = mrps;
+    }
+    EXPECT_DOUBLE_EQ(scene_rate(report, "hall", PairMode::Single, &AreaRow::mrps), 2000 / (10.0 + 40.0));
+    EXPECT_EQ(scene_rate(report, "hall", PairMode::DualShared, &AreaRow::mrps), 0);
+    EXPECT_EQ(scene_rate(report, "elsewhere", PairMode::Single, &AreaRow::mrps), 0);
+}
+
 TEST(AreaReport, SaysTheSameAsTextJsonAndCsv) {
     AreaOptions options = builtin_options();
     options.scenes.clear();
@@ -212,10 +246,12 @@ TEST(AreaReport, SaysTheSameAsTextJsonAndCsv) {
         row.rays = 10;
         row.cycles = std::uint64_t(cycles);
         row.mrps = 1e4 / cycles;
+        row.mrps_per_mgate = row.mrps / (report.modes[std::size_t(mode)].machine_gates / 1e6);
     }
     const std::string text = area_text(report);
-    for (const char* part : {"Sharing the common edge saves", "by -9.09 to -9.09 %", "One RTU of default",
-                             "box_tester:Width=4", "pairing_paper", "hall"}) {
+    for (const char* part :
+         {"Sharing the common edge saves", "It changes MRPS by -9.09 to -9.09 %", "more in 1 of 1 runs",
+          "One RTU of default", "box_tester:Width=4", "pairing_paper", "hall"}) {
         EXPECT_THAT(text, HasSubstr(part));
     }
     const auto document = nlohmann::json::parse(area_json(report));
