@@ -58,13 +58,14 @@ std::string trimmed(std::string_view text) {
 }
 
 /// A preset's machine. What its file does not name it takes over from the default machine, whose sources
-/// speak of other hardware: in a preset such a value is an assumption.
+/// speak of other hardware: in a preset such a value is an assumption, but for what says of no hardware
+/// anything.
 EffectiveConfig preset_config(const EmbeddedPreset& preset) {
     EffectiveConfig config =
         assign_all(default_config(), parse_config_toml(preset.toml, fmt::format("preset {}", preset.name)));
     if (&preset == &embedded_presets().front()) return config;
     for (EffectiveConfig::Origin& origin : config.origins) {
-        if (!origin.place.empty()) continue;
+        if (!origin.place.empty() || origin.source.starts_with("chosen")) continue;
         const bool is_assumed = origin.source.starts_with("assumed");
         origin.source =
             is_assumed ? "assumed: as default" : fmt::format("assumed: as default, {}", origin.source);

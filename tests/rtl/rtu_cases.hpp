@@ -30,6 +30,29 @@ struct RtuScene {
     model::MemoryImage image;
 };
 
+/// Whether a ray meets a triangle whose sides the first pass leaves open: the one thing of which the
+/// simulator does not know to the cycle what it takes.
+inline bool meets_open_sides(const model::MemoryImage& image, const model::Ray& ray, model::RayKind kind) {
+    model::Traversal walk;
+    if (!model::start(walk, image, ray, kind)) return false;
+    do {
+        if (!walk.current.ref.is_leaf()) {
+            model::visit_node(walk, image);
+        } else if (model::visit_pair(walk, image, 0).side_tests > 0) {
+            return true;
+        }
+    } while (!model::is_satisfied(walk) && model::pop(walk));
+    return false;
+}
+
+/// The workload without such rays.
+inline model::Workload without_open_sides(const RtuScene& scene, model::Workload workload) {
+    std::erase_if(workload.rays, [&](const model::Ray& ray) {
+        return meets_open_sides(scene.image, ray, workload.ray_kind);
+    });
+    return workload;
+}
+
 /// The simulated machine that the RTU is: all that it has not in its configuration is the default's.
 inline sim::Config simulated(const rtl::RtlConfig& config) {
     sim::Config machine;

@@ -125,6 +125,71 @@ std::vector<Case> cases() {
 INSTANTIATE_TEST_SUITE_P(OnBuiltinRays, Rtu, testing::ValuesIn(cases()),
                          [](const auto& test) { return test.param.name; });
 
+struct Number {
+    const char* key;
+    std::uint32_t& (*of)(sim::Config&);
+};
+
+constexpr Number timing_numbers[] = {
+    {"rtu.results_per_cycle", [](sim::Config& c) -> auto& {return c.rtu.results_per_cycle;
+}  // namespace
+}  // namespace rtu
+, {"rtu.fetches_per_cycle", [](sim::Config& c) -> auto& {return c.rtu.fetches_per_cycle;
+}
+}
+, {"rtu.scheduler.latency_cycles", [](sim::Config& c) -> auto& {return c.rtu.scheduler.latency_cycles;
+}
+}
+, {"rtu.box.latency_cycles", [](sim::Config& c) -> auto& {return c.rtu.box.latency_cycles;
+}
+}
+, {"rtu.pair.latency_cycles", [](sim::Config& c) -> auto& {return c.rtu.pair.latency_cycles;
+}
+}
+, {"rtu.pair.ii_cycles", [](sim::Config& c) -> auto& {return c.rtu.pair.ii_cycles;
+}
+}
+, {"rtu.pair.hit_cycles", [](sim::Config& c) -> auto& {return c.rtu.pair.hit_cycles;
+}
+}
+, {"rtu.pair.reject_cycles", [](sim::Config& c) -> auto& {return c.rtu.pair.reject_cycles;
+}
+}
+, {"rtu.pair.hit_units", [](sim::Config& c) -> auto& {return c.rtu.pair.hit_units;
+}
+}
+, {"rtu.pair.entries", [](sim::Config& c) -> auto& {return c.rtu.pair.entries;
+}
+}
+, {"l1.latency_cycles", [](sim::Config& c) -> auto& {return c.l1.latency_cycles;
+}
+}
+,
+}
+;
+
+// So the defaults are read off the RTL: no other number gives its cycles. Memory is fast, or it would hide
+// them.
+TEST(RtuTiming, IsThatOfTheDefaultMachineAndOfNoNumberBesideIt) {
+    const RtlConfig config{.slots = 128, .stack_entries = 1, .memory = {20, 128}};
+    const RtuScene& scene = builtin(4);
+    const model::Workload rays =
+        test::without_open_sides(scene, scene.rays(WorkloadKind::Primary, model::builtin_camera(), 32, 24));
+    const auto cycles = [&](const sim::Config& machine) {
+        return sim::simulate(machine, scene.image, rays.rays, rays.ray_kind).cycles;
+    };
+    const std::uint64_t expected = rtl::run_rtl(scene.image, rays.rays, rays.ray_kind, config).cycles;
+    ASSERT_EQ(cycles(test::simulated(config)), expected);
+    for (const Number& number : timing_numbers) {
+        for (const int step : {-1, 1}) {
+            sim::Config other = test::simulated(config);
+            if (number.of(other) == 1 && step < 0) continue;
+            number.of(other) += std::uint32_t(step);
+            EXPECT_NE(cycles(other), expected) << number.key << " = " << number.of(other);
+        }
+    }
+}
+
 class RtuOnScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(RtuOnScene, GivesTheHitsAndCountsAndCyclesOfTheSimulator) {
@@ -134,7 +199,11 @@ TEST_P(RtuOnScene, GivesTheHitsAndCountsAndCyclesOfTheSimulator) {
     const model::Camera camera = model::automatic_camera(scene.mesh, scene.image);
     for (const auto kind : {WorkloadKind::Primary, WorkloadKind::Diffuse}) {
         SCOPED_TRACE(kind == WorkloadKind::Primary ? "primary" : "diffuse");
-        compare({.slots = 128}, scene, scene.rays(kind, camera, 48 * ray_scale(), 36 * ray_scale()), 0.5);
+        const model::Workload rays = scene.rays(kind, camera, 48 * ray_scale(), 36 * ray_scale());
+        compare({.slots = 128}, scene, rays, 0.5);
+        // So few rays that no quotient of theirs is all but half way between two floats.
+        const model::Workload plain = scene.rays(kind, camera, 24, 18);
+        compare({.slots = 128}, scene, test::without_open_sides(scene, plain), 0);
     }
 }
 

@@ -98,10 +98,30 @@ TEST(Presets, AreValidAndSayWhereTheirValuesComeFrom) {
         const EffectiveConfig preset = load_config(name, {}, {});
         for (std::size_t i = 0; i < config_keys().size(); ++i) {
             const std::string& source = preset.origins[i].source;
-            EXPECT_TRUE(source.starts_with("assumed: ") || source.starts_with("["))
+            EXPECT_TRUE(source.starts_with("assumed: ") || source.starts_with("chosen: ") ||
+                        source.starts_with("["))
                 << name << ": " << config_keys()[i].name << ": " << source;
         }
     }
+}
+
+// What stays assumed of the RTU with its L1, beside the memory's technology and the host's link.
+TEST(Presets, AssumeOfTheDefaultRtuOnlyWhatTheRtlLeavesOpen) {
+    const EffectiveConfig machine = default_config();
+    std::vector<std::string_view> assumed;
+    for (std::size_t i = 0; i < config_keys().size(); ++i) {
+        const std::string_view key = config_keys()[i].name;
+        const bool is_outside = key.starts_with("l2.") || key.starts_with("dram.") ||
+                                key.starts_with("memory.") || key.starts_with("link.");
+        const std::string& source = machine.origins[i].source;
+        if (!is_outside && source.starts_with("assumed: ")) assumed.push_back(key);
+        const bool is_timing =
+            key.starts_with("rtu.") && (key.ends_with("_cycles") || key.ends_with("s_per_cycle"));
+        if (is_timing && key != "rtu.pair.replay_cycles" && key != "rtu.box.boxes_per_cycle") {
+            EXPECT_THAT(source, testing::StartsWith("[rtl] ")) << key;
+        }
+    }
+    EXPECT_THAT(assumed, testing::ElementsAre("rtu.pair.replay_cycles", "l1.targets_per_mshr"));
 }
 
 TEST(Presets, CallAssumedWhatTheyTakeOverFromTheDefaultMachine) {
