@@ -35,6 +35,7 @@ constexpr const char* description =
 struct Arguments {
     std::vector<std::string> scenes;
     std::string only;
+    std::vector<std::string> sim_sets;
     std::uint32_t rays = study::ValidateOptions{}.ray_count;
     std::string workloads = "primary,shadow,diffuse";
     std::string camera;
@@ -59,6 +60,8 @@ std::string footer() {
            "  rtusim validate --only base --workload primary --waves rtu.fst --window 1000:2000\n"
            "                                                  signals of the RTL, for a waveform viewer\n"
            "  rtusim validate --only base,stack_2 --rays 500  quicker\n"
+           "  rtusim validate --only base --sim-set rtu.scheduler.latency_cycles=0\n"
+           "                                                  what the scheduler's stages are worth\n"
            "  rtusim validate --json - | jq .summary\n";
 }
 
@@ -67,6 +70,12 @@ void add_options(CLI::App& validate, Arguments& arguments) {
         ->type_name("");
     validate.add_option("--only", arguments.only, "only these machines, see below")
         ->type_name("LIST")
+        ->check(is_not_empty());
+    validate
+        .add_option("--sim-set", arguments.sim_sets,
+                    "change the simulator only: what its cycles would be off by with this number; repeatable")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false)
         ->check(is_not_empty());
     validate
         .add_option("--rays", arguments.rays,
@@ -85,7 +94,8 @@ void add_options(CLI::App& validate, Arguments& arguments) {
         ->capture_default_str();
     validate
         .add_option("--waves", arguments.waves,
-                    "record the RTL's signals in FILE.fst or FILE.vcd: of one scene, workload and machine")
+                    "record the RTL's signals in FILE.fst or FILE.vcd: of one scene, workload and machine "
+                    "(4 wide, dual_shared)")
         ->type_name("FILE")
         ->check(is_not_empty());
     validate.add_option("--window", arguments.window, "the cycles that --waves records")
@@ -95,8 +105,9 @@ void add_options(CLI::App& validate, Arguments& arguments) {
     add_chart_file_options(validate, arguments.charts);
 }
 
-std::vector<study::ValidateConfig> parse_configs(const std::string& text) {
-    std::vector<study::ValidateConfig> known = study::validate_configs();
+std::vector<study::ValidateConfig> parse_configs(const std::string& text,
+                                                 const std::vector<std::string>& sim_sets) {
+    std::vector<study::ValidateConfig> known = study::validate_configs(sim_sets);
     const std::vector<std::string> names = parse_list("--only", text);
     if (names.empty()) return known;
     std::vector<study::ValidateConfig> chosen;
@@ -144,7 +155,8 @@ study::ValidateOptions options_of(const Arguments& arguments) {
     study::ValidateOptions options;
     options.scenes = parse_scenes(arguments.scenes);
     options.workloads = parse_workloads(arguments.workloads);
-    options.configs = parse_configs(arguments.only);
+    options.configs = parse_configs(arguments.only, arguments.sim_sets);
+    options.sim_sets = arguments.sim_sets;
     options.ray_count = arguments.rays;
     options.seed = parse_seed(arguments.seed);
     options.camera_file = optional_path(arguments.camera);

@@ -5,6 +5,7 @@
 #include <Vrtu_4_1.h>
 #include <Vrtu_4_2.h>
 #include <Vrtu_8_2.h>
+#include <Vrtu_waves.h>
 
 #include <algorithm>
 #include <bit>
@@ -37,6 +38,8 @@ constexpr std::array builds{
     Build{4, TesterMode::DualShared, run_on<Vrtu_4_2>}, Build{4, TesterMode::Single, run_on<Vrtu_4_0>},
     Build{4, TesterMode::DualIndependent, run_on<Vrtu_4_1>},
     Build{2, TesterMode::DualShared, run_on<Vrtu_2_2>}, Build{8, TesterMode::DualShared, run_on<Vrtu_8_2>}};
+
+constexpr Build recording{4, TesterMode::DualShared, run_on<Vrtu_waves>};
 
 const Build* find_build(const RtlConfig& config) {
     if (config.hit_units != built_hit_units) return nullptr;
@@ -89,6 +92,13 @@ void check(const model::MemoryImage& image, const RtlConfig& config) {
     }
 }
 
+void check(const Waves& waves) {
+    const auto suffix = waves.file.extension();
+    if (suffix != ".fst" && suffix != ".vcd") {
+        throw Error("{}: expected a file name that ends in .fst or .vcd", waves.file.string());
+    }
+}
+
 }  // namespace
 
 bool has_build(const RtlConfig& config) { return find_build(config) != nullptr; }
@@ -102,6 +112,15 @@ RtlResult run_rtl(const model::MemoryImage& image, std::span<const model::Ray> r
     }
     check(config);
     check(image, config);
+    if (waves != nullptr) {
+        check(*waves);
+        if (std::pair(config.width, config.mode) != std::pair(recording.width, recording.mode)) {
+            throw Error("rtl: waves are those of an RTU of width {} and pair mode {}, got {} and {}",
+                        recording.width, std::uint32_t(recording.mode), config.width,
+                        std::uint32_t(config.mode));
+        }
+        build = &recording;
+    }
     return build->run(image, rays, kind, config, waves, disturbance);
 }
 

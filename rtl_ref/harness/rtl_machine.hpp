@@ -56,7 +56,8 @@ struct RtlResult {
     std::uint64_t cache_merges = 0;  ///< line reads that found their line on its way
 };
 
-/// Cycles of which signals are recorded, in a file whose name ends in .vcd or .fst.
+/// Cycles of which signals are recorded, in a file whose name ends in .vcd or .fst. Time is counted in half
+/// cycles from the first one after reset: cycle c has settled at 2 c, and its clock rises at 2 c + 1.
 struct Waves {
     std::filesystem::path file;
     std::uint64_t first_cycle = 0;
@@ -73,9 +74,9 @@ struct Disturbance {
 /// Whether an RTU of this width, mode and number of hit units was Verilated.
 [[nodiscard]] bool has_build(const RtlConfig& config);
 
-/// Runs rays through the RTU. The image has one pair a leaf. Throws rtu::Error when the RTU cannot take the
-/// image or the configuration, or waves were asked for and it was built without; std::logic_error when it
-/// comes to no end or breaks a rule.
+/// Runs rays through the RTU. The image has one pair a leaf. Only the RTU of the default RtlConfig's width
+/// and mode records waves. Throws rtu::Error when the RTU cannot take the image or the configuration, or
+/// waves cannot be recorded; std::logic_error when it comes to no end or breaks a rule.
 [[nodiscard]] RtlResult run_rtl(const model::MemoryImage& image, std::span<const model::Ray> rays,
                                 model::RayKind kind, const RtlConfig& config, const Waves* waves = nullptr,
                                 const Disturbance* disturbance = nullptr);

@@ -57,7 +57,7 @@ class RtlRun {
         }
         context_.traceEverOn(waves != nullptr);
         unit_ = std::make_unique<Top>(&context_, "rtu");
-        if (waves != nullptr) waves_ = std::make_unique<WaveFile<Top>>(*unit_, *waves);
+        if (waves != nullptr) waves_ = std::make_unique<typename WaveFileOf<Top>::Type>(*unit_, *waves);
         result_.hits.resize(rays.size());
         is_returned_.resize(rays.size());
     }
@@ -73,6 +73,7 @@ class RtlRun {
         }
         if (!rays_.empty()) result_.cycles = now_ - first_accepted_;
         unit_->final();
+        if (waves_) waves_->finish(now_);
         return std::move(result_);
     }
 
@@ -226,7 +227,7 @@ class RtlRun {
     Willing willing_;
     VerilatedContext context_;
     std::unique_ptr<Top> unit_;
-    std::unique_ptr<WaveFile<Top>> waves_;
+    std::unique_ptr<typename WaveFileOf<Top>::Type> waves_;
     RtlResult result_;
     std::vector<bool> is_returned_;
     bool is_offered_ = false;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <gtkwave/fstapi.h>
 #include <verilated_fst_c.h>
-#include <verilated_vcd_c.h>
 
 #include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "model/error.hpp"
@@ -11,44 +13,39 @@
 
 namespace rtu::rtl {
 
-/// What a Verilated `Top` can record itself in: nothing, unless it was Verilated with tracing.
-template <class Top>
-concept TracesVcd = requires(Top& top, VerilatedVcdC* file) {
-    top.trace(file, 99);
-};
+/// A Verilated class that can record itself.
 template <class Top>
 concept TracesFst = requires(Top& top, VerilatedFstC* file) {
     top.trace(file, 99);
 };
 
-/// The signals of a Verilated unit, cycle by cycle, in a file; two time steps a cycle.
-template <class Top>
+/// Writes all changes in an FST file as VCD. Throws rtu::Error when either file fails.
+inline void write_vcd(const std::filesystem::path& fst, const std::filesystem::path& vcd) {
+    const std::unique_ptr<void, void (*)(void*)> reader(fstReaderOpen(fst.c_str()), fstReaderClose);
+    if (!reader) throw Error("{}: cannot be read back", fst.string());
+    std::FILE* file = std::fopen(vcd.c_str(), "w");
+    if (file == nullptr) throw Error("{}: cannot be written", vcd.string());
+    fstReaderProcessHier(reader.get(), file);
+    fstReaderSetFacProcessMaskAll(reader.get());
+    fstReaderIterBlocks(reader.get(), nullptr, nullptr, file);
+    const bool is_broken = std::ferror(file) != 0;
+    if (std::fclose(file) != 0 || is_broken) throw Error("{}: cannot be written", vcd.string());
+}
+
+/// The signals of a Verilated unit, cycle by cycle, in a file.
+template <TracesFst Top>
 class WaveFile {
   public:
-    /// Throws rtu::Error when the file cannot be written or the unit does not trace in its format.
-    WaveFile(Top& unit, const Waves& waves) : waves_(waves) {
-        const auto suffix = waves.file.extension();
-        if constexpr (TracesVcd<Top>) {
-            if (suffix == ".vcd") open(unit, vcd_);
-        }
-        if constexpr (TracesFst<Top>) {
-            if (suffix == ".fst") open(unit, fst_);
-        }
-        if (!vcd_ && !fst_) {
-            throw Error("{}: expected {}", waves.file.string(),
-                        TracesVcd<Top> ? "a file name that ends in .vcd: this build writes no other waves"
-                        : TracesFst<Top>
-                            ? "a file name that ends in .fst: this build writes no other waves"
-                            : "no waves: the RTL was built without them (cmake -DRTUSIM_RTL_WAVES=fst)");
-        }
+    /// Throws rtu::Error when the file cannot be written.
+    WaveFile(Top& unit, const Waves& waves) : waves_(waves), fst_(waves.file) {
+        if (waves.file.extension() == ".vcd") fst_ += ".fst";  // of which a VCD is made
+        unit.trace(&file_, 99);
+        file_.open(fst_.c_str());
+        if (!file_.isOpen()) throw Error("{}: cannot be written", fst_.string());
     }
     ~WaveFile() {
-        if constexpr (TracesVcd<Top>) {
-            if (vcd_) vcd_->close();
-        }
-        if constexpr (TracesFst<Top>) {
-            if (fst_) fst_->close();
-        }
+        std::error_code ignored;
+        if (fst_ != waves_.file) std::filesystem::remove(fst_, ignored);
     }
     WaveFile(const WaveFile&) = delete;
     WaveFile& operator=(const WaveFile&) = delete;
@@ -56,27 +53,47 @@ class WaveFile {
     /// Records the signals at the beginning of a cycle (settled, before its clock edge) or after the edge.
     void dump(std::uint64_t cycle, bool is_after_edge) {
         if (cycle < waves_.first_cycle || cycle >= waves_.end_cycle) return;
-        const std::uint64_t time = 2 * cycle + (is_after_edge ? 1 : 0);
-        if constexpr (TracesVcd<Top>) {
-            if (vcd_) vcd_->dump(time);
+        file_.dump(2 * cycle + (is_after_edge ? 1 : 0));
+        has_recorded_ = true;
+    }
+
+    /// At the end of a run. Throws rtu::Error when the file cannot be written or the window was never
+    /// reached, and leaves no file then.
+    void finish(std::uint64_t cycles) {
+        file_.close();
+        if (!has_recorded_) {
+            std::filesystem::remove(fst_);
+            throw Error("{}: nothing to record from cycle {} on: the run ended after {}",
+                        waves_.file.string(), waves_.first_cycle, cycles);
         }
-        if constexpr (TracesFst<Top>) {
-            if (fst_) fst_->dump(time);
-        }
+        if (fst_ != waves_.file) write_vcd(fst_, waves_.file);
     }
 
   private:
-    template <class File>
-    void open(Top& unit, std::unique_ptr<File>& file) {
-        file = std::make_unique<File>();
-        unit.trace(file.get(), 99);
-        file->open(waves_.file.string().c_str());
-        if (!file->isOpen()) throw Error("{}: cannot be written", waves_.file.string());
-    }
-
     Waves waves_;
-    std::unique_ptr<VerilatedVcdC> vcd_;
-    std::unique_ptr<VerilatedFstC> fst_;
+    std::filesystem::path fst_;
+    VerilatedFstC file_;
+    bool has_recorded_ = false;
+};
+
+/// Of a unit that cannot record itself.
+class NoWaveFile {
+  public:
+    template <class Top>
+    NoWaveFile(Top& /*unit*/, const Waves& waves) {
+        throw Error("{}: this RTU was Verilated without waves", waves.file.string());
+    }
+    void dump(std::uint64_t /*cycle*/, bool /*is_after_edge*/) {}
+    void finish(std::uint64_t /*cycles*/) {}
+};
+
+template <class Top>
+struct WaveFileOf {
+    using Type = NoWaveFile;
+};
+template <TracesFst Top>
+struct WaveFileOf<Top> {
+    using Type = WaveFile<Top>;
 };
 
 }  // namespace rtu::rtl

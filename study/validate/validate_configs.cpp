@@ -51,22 +51,35 @@ bool is_unused(std::string_view key) { return key.starts_with("l2.") || key.star
 
 std::string_view key_of(std::string_view set) { return set.substr(0, set.find('=')); }
 
+// `sets`, and of `others` those of other keys.
+std::vector<std::string> with_defaults(std::vector<std::string> sets,
+                                       const std::vector<std::string>& others) {
+    const std::size_t given = sets.size();
+    for (const std::string& other : others) {
+        const auto is_it = [&](const std::string& set) { return key_of(set) == key_of(other); };
+        if (std::none_of(sets.begin(), sets.begin() + std::ptrdiff_t(given), is_it)) sets.push_back(other);
+    }
+    return sets;
+}
+
 }  // namespace
 
 std::vector<std::string> validated_machine() {
     return {"memory.model=flat", "rtu.ray_slots=64", "rtu.scheduler.latency_cycles=3"};
 }
 
-std::vector<ValidateConfig> validate_configs() {
+std::vector<ValidateConfig> validate_configs(const std::vector<std::string>& sim_sets) {
+    for (const std::string& set : sim_sets) {
+        if (!set.starts_with("bvh.")) continue;
+        throw Error("{}: expected a key of the machine: simulator and RTL walk the same tree", set);
+    }
     std::vector<ValidateConfig> configs;
     for (const Difference& difference : differences()) {
-        std::vector<std::string> sets = difference.sets;
-        for (std::string& base : validated_machine()) {
-            const auto is_it = [&](const std::string& set) { return key_of(set) == key_of(base); };
-            if (std::ranges::none_of(difference.sets, is_it)) sets.push_back(std::move(base));
-        }
-        configs.push_back(
-            {difference.name, difference.sets, sim::load_config("default", std::nullopt, sets).config});
+        const std::vector<std::string> sets = with_defaults(difference.sets, validated_machine());
+        ValidateConfig& config = configs.emplace_back(ValidateConfig{
+            difference.name, difference.sets, sim::load_config("default", std::nullopt, sets).config});
+        if (sim_sets.empty()) continue;
+        config.simulated = sim::load_config("default", std::nullopt, with_defaults(sim_sets, sets)).config;
     }
     return configs;
 }

@@ -1,6 +1,7 @@
 #include "study/validate/validate_output.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +22,7 @@ Json json(const ValidateRow& row) {
             {"hits", row.hits},
             {"rtl_cycles", row.rtl_cycles},
             {"sim_cycles", row.sim_cycles},
+            {"side_tests", row.side_tests},
             {"error_percent", row.error_percent()},
             {"rtl_mrps", mrps(row.rays, row.rtl_cycles, row.clock_mhz)},
             {"sim_mrps", mrps(row.rays, row.sim_cycles, row.clock_mhz)},
@@ -40,7 +42,9 @@ Json json(const std::optional<ValidateDifference>& difference) {
 std::string cell(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 std::string heading(const ValidateReport& report) {
-    return fmt::format("rtusim {}  simulator against the Verilated RTU  seed {}", report.version,
+    const std::string changes =
+        report.sim_sets.empty() ? "" : fmt::format(" with {}", fmt::join(report.sim_sets, " "));
+    return fmt::format("rtusim {}  simulator{} against the Verilated RTU  seed {}", report.version, changes,
                        report.seed);
 }
 
@@ -61,11 +65,14 @@ std::string validate_json(const ValidateReport& report) {
     const ErrorSummary summary = error_summary(report.rows);
     Json document{{"version", report.version},
                   {"seed", report.seed},
+                  {"sim_sets", report.sim_sets},
                   {"summary",
                    {{"rows", summary.rows},
                     {"worst_percent", summary.worst_percent},
                     {"median_percent", summary.median_percent},
                     {"within_2_percent", summary.within_2_percent},
+                    {"without_side_tests", exact_rows(report.rows).without_side_tests},
+                    {"exact_without_side_tests", exact_rows(report.rows).exact},
                     {"speedup", speedup(report.rows)}}},
                   {"difference", json(report.difference)}};
     for (const char* key : {"configs", "rows"}) document[key] = Json::array();

@@ -15,6 +15,7 @@ struct ValidateConfig {
     std::string name;
     std::vector<std::string> sets;  ///< how it differs from the validated machine, "key=value" each
     sim::Config config;
+    std::optional<sim::Config> simulated = std::nullopt;  ///< what the simulator is instead, in an ablation
 };
 
 /// One workload of one scene on one machine, in the RTL and in the simulator.
@@ -26,6 +27,9 @@ struct ValidateRow {
     std::uint64_t hits = 0;
     std::uint64_t rtl_cycles = 0;
     std::uint64_t sim_cycles = 0;
+    /// Triangles whose sides the first pass left open: what the hit unit takes for them is only nearly
+    /// simulated.
+    std::uint64_t side_tests = 0;
     std::uint32_t clock_mhz = 0;
     double rtl_cpu_seconds = 0;  ///< of the host
     double sim_cpu_seconds = 0;
@@ -51,6 +55,7 @@ struct ValidateDifference {
 struct ValidateReport {
     std::string version;
     std::uint64_t seed = 0;
+    std::vector<std::string> sim_sets;  ///< what was changed in the simulator only
     std::vector<ValidateConfig> configs;
     std::vector<ValidateRow> rows;  ///< by scene, configuration, workload
     /// Ends the validation: the rows are those before it.
@@ -64,6 +69,14 @@ struct ErrorSummary {
     std::uint64_t within_2_percent = 0;
     std::uint64_t rows = 0;
 };
+
+/// Rows that met no triangle with open sides, and those of them whose cycles are the same in both.
+struct ExactRows {
+    std::uint64_t without_side_tests = 0;
+    std::uint64_t exact = 0;
+};
+
+[[nodiscard]] ExactRows exact_rows(std::span<const ValidateRow> rows);
 
 [[nodiscard]] ErrorSummary error_summary(std::span<const ValidateRow> rows);
 

@@ -65,6 +65,21 @@ std::optional<ValidateDifference> difference(const sim::MachineResult& sim, cons
     return std::nullopt;
 }
 
+std::uint64_t side_tests_of(const model::MemoryImage& image, const model::Ray& ray, model::RayKind kind) {
+    model::Traversal walk;
+    std::uint64_t side_tests = 0;
+    bool goes_on = model::start(walk, image, ray, kind);
+    while (goes_on) {
+        const model::NodeRef at = walk.current.ref;
+        if (!at.is_leaf()) model::visit_node(walk, image);
+        for (std::uint32_t i = 0; at.is_leaf() && i < at.pair_count() && !model::is_satisfied(walk); ++i) {
+            side_tests += model::visit_pair(walk, image, i).side_tests;
+        }
+        goes_on = !model::is_satisfied(walk) && model::pop(walk, 0);
+    }
+    return side_tests;
+}
+
 // One scene, with an image of every width that a machine wants.
 class Bench {
   public:
@@ -122,12 +137,14 @@ class Bench {
         row.rays = rays.size();
         row.clock_mhz = config.config.clock_mhz;
         const double start = cpu_seconds();
-        const sim::MachineResult sim = sim::simulate(config.config, tree, rays, made.ray_kind);
+        const sim::MachineResult sim =
+            sim::simulate(config.simulated.value_or(config.config), tree, rays, made.ray_kind);
         const double between = cpu_seconds();
         const ReferenceResult rtl = options_.reference(config.config, tree, rays, made.ray_kind);
         row.sim_cpu_seconds = between - start;
         row.rtl_cpu_seconds = cpu_seconds() - between;
         row.sim_cycles = sim.cycles;
+        for (const model::Ray& ray : rays) row.side_tests += side_tests_of(tree, ray, made.ray_kind);
         row.rtl_cycles = rtl.cycles;
         row.hits =
             std::uint64_t(std::ranges::count_if(sim.hits, [](const auto& hit) { return hit.has_value(); }));
@@ -170,6 +187,16 @@ ErrorSummary error_summary(std::span<const ValidateRow> rows) {
     return summary;
 }
 
+ExactRows exact_rows(std::span<const ValidateRow> rows) {
+    ExactRows counted;
+    for (const ValidateRow& row : rows) {
+        if (row.side_tests > 0) continue;
+        ++counted.without_side_tests;
+        counted.exact += row.sim_cycles == row.rtl_cycles ? 1 : 0;
+    }
+    return counted;
+}
+
 double speedup(std::span<const ValidateRow> rows) {
     double rtl = 0, sim = 0;
     for (const ValidateRow& row : rows) {
@@ -191,6 +218,7 @@ ValidateReport run_validation(const ValidateOptions& options) {
     report.version = version();
     report.seed = options.seed;
     report.configs = options.configs;
+    report.sim_sets = options.sim_sets;
     for (const SceneSource& source : options.scenes) {
         if (!report.difference) Bench(options, source, report).run();
     }

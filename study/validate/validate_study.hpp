@@ -23,6 +23,7 @@ struct ValidateOptions {
     std::optional<std::filesystem::path> camera_file;  ///< as in RunOptions
     std::uint64_t seed = 1;
     ReferenceMachine reference;
+    std::vector<std::string> sim_sets;  ///< for the report: what ValidateConfig::simulated changes
     /// Told of each scene's phases; may be empty.
     std::function<void(std::string_view scene, std::string_view phase)> progress;
 };

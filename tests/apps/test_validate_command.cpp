@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/command_line.hpp"
+#include "tests/apps/vcd_file.hpp"
 
 namespace rtu::test {
 namespace {
@@ -32,7 +34,7 @@ TEST_F(ValidateCommand, HelpListsTheMachines) {
 // The rays of the built-in scene, on machines that differ in what limits them.
 TEST_F(ValidateCommand, FindsHitsAndCountsEqualAndCyclesClose) {
     const ProcessResult result =
-        run({"validate", "--only", "base,slots_4,single,stack_2,tiny_cache,bandwidth_4", "--rays", "300",
+        run({"validate", "--only", "base,slots_4,single,stack_2,tiny_cache,bandwidth_4", "--rays", "120",
              "--workload", "primary,shadow", "--json", "-"});
     if (is_without_rtl(result)) GTEST_SKIP() << result.err;
     ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -44,15 +46,62 @@ TEST_F(ValidateCommand, FindsHitsAndCountsEqualAndCyclesClose) {
         EXPECT_GT(row["hits"], 0) << row;
     }
     EXPECT_LE(double(report["summary"]["median_percent"]), 0.5);
+    EXPECT_GT(report["summary"]["without_side_tests"], 0);
+    EXPECT_EQ(report["summary"]["exact_without_side_tests"], report["summary"]["without_side_tests"]);
 }
 
-TEST_F(ValidateCommand, RecordsWaves) {
-    const ProcessResult result = run({"validate", "ball.glb", "--only", "base", "--workload", "primary",
-                                      "--rays", "30", "--waves", "rtu.vcd", "--window", "100:200"});
+class Waves : public ValidateCommand {
+  protected:
+    ProcessResult record(const std::string& file, const std::string& window,
+                         const std::string& machine = "base") const {
+        return run({"validate", "ball.glb", "--only", machine, "--workload", "primary", "--rays", "30",
+                    "--waves", file, "--window", window});
+    }
+};
+
+// A cycle's signals at twice its number, after its clock edge one later.
+TEST_F(Waves, HoldTheWindowThatIsAskedFor) {
+    const ProcessResult result = record("rtu.vcd", "100:200");
     if (is_without_rtl(result)) GTEST_SKIP() << result.err;
-    if (result.exit_code == 1) GTEST_SKIP() << result.err;  // waves were left out of the build
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(content("rtu.vcd"), HasSubstr("$enddefinitions"));
+    std::uint64_t wrong_clocks = 0;
+    const Vcd vcd = read_vcd(content("rtu.vcd"), [&](std::uint64_t time, const auto& values) {
+        wrong_clocks += values.at("rtu.clk_i") == std::to_string(time % 2) ? 0 : 1;
+    });
+    ASSERT_EQ(vcd.times.size(), 200U);
+    EXPECT_EQ(vcd.times.front(), 200U);
+    EXPECT_EQ(vcd.times.back(), 399U);
+    EXPECT_EQ(wrong_clocks, 0U);
+    EXPECT_THAT(vcd.signals, testing::IsSupersetOf({"rtu.hit_valid_o", "rtu.rtu.u_core.u_scheduler.ends",
+                                                    "rtu.rtu.u_cache.u_control.request_valid_i"}));
+    EXPECT_THAT(names(), testing::UnorderedElementsAre("ball.glb", "rtu.vcd"));
+}
+
+// Every ray comes back once, as a reader of its own sees it.
+TEST_F(Waves, ShowEveryHitInAnFstFile) {
+    const ProcessResult result = record("rtu.fst", "0:1000000");
+    if (is_without_rtl(result)) GTEST_SKIP() << result.err;
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const char* reader = "/usr/bin/fst2vcd";
+    if (!std::filesystem::exists(reader)) GTEST_SKIP() << "no fst2vcd here (package gtkwave)";
+    const ProcessResult read = Process(folder_.path(), {reader, "-f", "rtu.fst"}).wait();
+    ASSERT_EQ(read.exit_code, 0) << read.err;
+    std::uint64_t hits = 0;
+    static_cast<void>(read_vcd(read.out, [&](std::uint64_t time, const auto& values) {
+        if (time % 2 == 0) hits += std::size_t(std::ranges::count(values.at("rtu.hit_valid_o"), '1'));
+    }));
+    EXPECT_EQ(hits, 30U);
+}
+
+TEST_F(Waves, AreRefusedInOneLineWhereThereAreNone) {
+    const ProcessResult late = record("rtu.vcd", "900000:900001");
+    if (is_without_rtl(late)) GTEST_SKIP() << late.err;
+    EXPECT_EQ(late.exit_code, 1);
+    EXPECT_THAT(late.err, HasSubstr("rtu.vcd: nothing to record from cycle 900000 on: the run ended after "));
+    const ProcessResult other = record("rtu.fst", "0:10", "single");
+    EXPECT_EQ(other.exit_code, 1);
+    EXPECT_THAT(other.err, HasSubstr("waves are those of an RTU of width 4 and pair mode 2, got 4 and 0"));
+    EXPECT_THAT(names(), testing::ElementsAre("ball.glb"));
 }
 
 TEST_F(ValidateCommand, RefusesBadInputInOneLine) {
@@ -71,6 +120,8 @@ TEST_F(ValidateCommand, RefusesBadInputInOneLine) {
     refuses({"ball.glb", "--workload", "sun"}, "sun");
     refuses({"ball.glb", "ball.glb"}, "two scenes");
     refuses({"ball.glb", "--waves", "a.fst"}, "one scene");
+    refuses({"ball.glb", "--sim-set", "bvh.width=2"}, "the same tree");
+    refuses({"ball.glb", "--sim-set", "rtu.nothing=2"}, "rtu.nothing");
     refuses({"ball.glb", "--only", "base", "--workload", "primary", "--waves", "a.png"}, ".fst or .vcd");
     refuses({"ball.glb", "--only", "base", "--workload", "primary", "--waves", "a.fst", "--window", "9:3"},
             "--window");

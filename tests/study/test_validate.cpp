@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "model/error.hpp"
 #include "sim/effective_config.hpp"
 #include "sim/machine.hpp"
 #include "study/validate/validate_configs.hpp"
@@ -105,6 +106,26 @@ TEST(Validation, EndsAtTheFirstCountThatDiffers) {
     EXPECT_THAT(difference([](ReferenceResult& r) { r.hits.pop_back(); }), HasSubstr("no answer"));
 }
 
+// The reference stays what it is, so the error is that of the change.
+TEST(Validation, ChangesTheSimulatorAlone) {
+    std::vector<std::string> slots;
+    const ReferenceMachine reference = [&](const sim::Config& config, const auto& image, auto rays,
+                                           auto kind) {
+        slots.push_back(fmt::format("{} {}", config.rtu.ray_slots, config.rtu.scheduler.latency_cycles));
+        return slower_simulator(config, image, rays, kind);
+    };
+    ValidateOptions options = builtin_options(reference);
+    options.configs = validate_configs({"rtu.scheduler.latency_cycles=40", "rtu.ray_slots=4"});
+    options.configs.resize(1);
+    options.workloads.resize(1);
+    const ValidateReport report = run_validation(options);
+    ASSERT_FALSE(report.difference) << report.difference->what;
+    EXPECT_THAT(slots, testing::ElementsAre("64 3"));
+    EXPECT_GT(report.rows[0].error_percent(), 100);
+    EXPECT_THROW(static_cast<void>(validate_configs({"bvh.width=2"})), Error);
+    EXPECT_THROW(static_cast<void>(validate_configs({"rtu.slots=2"})), Error);
+}
+
 TEST(Validation, GivesFewSlotsFewRays) {
     EXPECT_EQ(rays_for(2000, config_with({"rtu.ray_slots=64"})), 2000U);
     EXPECT_EQ(rays_for(2000, config_with({"rtu.ray_slots=4"})), 500U);
@@ -128,6 +149,16 @@ ValidateReport example_report() {
         row.sim_cpu_seconds = 0.01;
     }
     return report;
+}
+
+TEST(ValidateReport, CountsTheExactRunsWithoutOpenSides) {
+    ValidateReport report = example_report();
+    EXPECT_EQ(exact_rows(report.rows).without_side_tests, 3U);
+    EXPECT_EQ(exact_rows(report.rows).exact, 1U);
+    for (ValidateRow& row : report.rows) row.side_tests = 2;
+    report.rows[0].side_tests = 0;
+    EXPECT_EQ(exact_rows(report.rows).without_side_tests, 1U);
+    EXPECT_EQ(exact_rows(report.rows).exact, 0U);
 }
 
 TEST(ValidateReport, SumsErrorsUp) {
