@@ -105,9 +105,8 @@ void add_options(CLI::App& validate, Arguments& arguments) {
     add_chart_file_options(validate, arguments.charts);
 }
 
-std::vector<study::ValidateConfig> parse_configs(const std::string& text,
-                                                 const std::vector<std::string>& sim_sets) {
-    std::vector<study::ValidateConfig> known = study::validate_configs(sim_sets);
+std::vector<study::ValidateConfig> parse_configs(const std::string& text) {
+    std::vector<study::ValidateConfig> known = study::validate_configs();
     const std::vector<std::string> names = parse_list("--only", text);
     if (names.empty()) return known;
     std::vector<study::ValidateConfig> chosen;
@@ -155,8 +154,11 @@ study::ValidateOptions options_of(const Arguments& arguments) {
     study::ValidateOptions options;
     options.scenes = parse_scenes(arguments.scenes);
     options.workloads = parse_workloads(arguments.workloads);
-    options.configs = parse_configs(arguments.only, arguments.sim_sets);
+    options.configs = parse_configs(arguments.only);
     options.sim_sets = arguments.sim_sets;
+    for (study::ValidateConfig& config : options.configs) {
+        if (!options.sim_sets.empty()) config.simulated = study::simulated_instead(config, options.sim_sets);
+    }
     options.ray_count = arguments.rays;
     options.seed = parse_seed(arguments.seed);
     options.camera_file = optional_path(arguments.camera);

@@ -68,20 +68,23 @@ std::vector<std::string> validated_machine() {
     return {"memory.model=flat", "rtu.ray_slots=64", "rtu.scheduler.latency_cycles=3"};
 }
 
-std::vector<ValidateConfig> validate_configs(const std::vector<std::string>& sim_sets) {
+std::vector<ValidateConfig> validate_configs() {
+    std::vector<ValidateConfig> configs;
+    for (const Difference& difference : differences()) {
+        const std::vector<std::string> sets = with_defaults(difference.sets, validated_machine());
+        configs.push_back(
+            {difference.name, difference.sets, sim::load_config("default", std::nullopt, sets).config});
+    }
+    return configs;
+}
+
+sim::Config simulated_instead(const ValidateConfig& config, const std::vector<std::string>& sim_sets) {
     for (const std::string& set : sim_sets) {
         if (!set.starts_with("bvh.")) continue;
         throw Error("{}: expected a key of the machine: simulator and RTL walk the same tree", set);
     }
-    std::vector<ValidateConfig> configs;
-    for (const Difference& difference : differences()) {
-        const std::vector<std::string> sets = with_defaults(difference.sets, validated_machine());
-        ValidateConfig& config = configs.emplace_back(ValidateConfig{
-            difference.name, difference.sets, sim::load_config("default", std::nullopt, sets).config});
-        if (sim_sets.empty()) continue;
-        config.simulated = sim::load_config("default", std::nullopt, with_defaults(sim_sets, sets)).config;
-    }
-    return configs;
+    const std::vector<std::string> sets = with_defaults(config.sets, validated_machine());
+    return sim::load_config("default", std::nullopt, with_defaults(sim_sets, sets)).config;
 }
 
 void check_is_rtl_machine(const sim::Config& config) {

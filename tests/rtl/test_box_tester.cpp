@@ -143,7 +143,7 @@ std::optional<rtl::StreamCycles> compare(std::uint64_t count, Willing willing = 
 }
 
 TYPED_TEST(BoxTester, MeetsTheChildrenOfTheModelInItsOrderOneNodeACycle) {
-    const std::uint64_t count = test::vector_count(500'000);
+    const std::uint64_t count = test::vector_count(1'000'000);
     const auto cycles = compare<TypeParam>(count);
     ASSERT_TRUE(cycles);
     EXPECT_EQ(cycles->total, cycles->first_result + count - 1);

@@ -115,15 +115,16 @@ TEST(Validation, ChangesTheSimulatorAlone) {
         return slower_simulator(config, image, rays, kind);
     };
     ValidateOptions options = builtin_options(reference);
-    options.configs = validate_configs({"rtu.scheduler.latency_cycles=40", "rtu.ray_slots=4"});
-    options.configs.resize(1);
+    options.configs = {validate_configs().front()};
+    options.configs[0].simulated =
+        simulated_instead(options.configs[0], {"rtu.scheduler.latency_cycles=40", "rtu.ray_slots=4"});
     options.workloads.resize(1);
     const ValidateReport report = run_validation(options);
     ASSERT_FALSE(report.difference) << report.difference->what;
     EXPECT_THAT(slots, testing::ElementsAre("64 3"));
     EXPECT_GT(report.rows[0].error_percent(), 100);
-    EXPECT_THROW(static_cast<void>(validate_configs({"bvh.width=2"})), Error);
-    EXPECT_THROW(static_cast<void>(validate_configs({"rtu.slots=2"})), Error);
+    EXPECT_THROW(static_cast<void>(simulated_instead(options.configs[0], {"bvh.width=2"})), Error);
+    EXPECT_THROW(static_cast<void>(simulated_instead(options.configs[0], {"rtu.slots=2"})), Error);
 }
 
 TEST(Validation, GivesFewSlotsFewRays) {
