@@ -19,7 +19,8 @@ concept TracesFst = requires(Top& top, VerilatedFstC* file) {
     top.trace(file, 99);
 };
 
-/// Writes all changes in an FST file as VCD. Throws rtu::Error when either file fails.
+/// Writes all changes in an FST file as VCD. Throws rtu::Error when either file fails, and leaves no VCD
+/// then.
 inline void write_vcd(const std::filesystem::path& fst, const std::filesystem::path& vcd) {
     const std::unique_ptr<void, void (*)(void*)> reader(fstReaderOpen(fst.c_str()), fstReaderClose);
     if (!reader) throw Error("{}: cannot be read back", fst.string());
@@ -29,7 +30,9 @@ inline void write_vcd(const std::filesystem::path& fst, const std::filesystem::p
     fstReaderSetFacProcessMaskAll(reader.get());
     fstReaderIterBlocks(reader.get(), nullptr, nullptr, file);
     const bool is_broken = std::ferror(file) != 0;
-    if (std::fclose(file) != 0 || is_broken) throw Error("{}: cannot be written", vcd.string());
+    if (std::fclose(file) == 0 && !is_broken) return;
+    std::filesystem::remove(vcd);
+    throw Error("{}: cannot be written", vcd.string());
 }
 
 /// The signals of a Verilated unit, cycle by cycle, in a file.
