@@ -25,6 +25,7 @@
 #include "apps/standard_output.hpp"
 #include "apps/stream_command.hpp"
 #include "apps/sweep_command.hpp"
+#include "apps/timeline_command.hpp"
 #include "apps/trace_command.hpp"
 #include "apps/validate_command.hpp"
 #include "model/error.hpp"
@@ -55,6 +56,7 @@ constexpr const char* footer =
     "  rtusim area                             gates of the machine, and of sharing a pair's common edge\n"
     "  rtusim validate                         hits, counts and cycles against the RTL reference\n"
     "  rtusim stream                           rays and triangles over a host link, without a BVH\n"
+    "  rtusim timeline --json t.json           what units and rays do in each cycle, for Perfetto\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -118,6 +120,7 @@ int run_cli(int argc, char** argv) {
     add_area_command(app, command);
     add_validate_command(app, command);
     add_stream_command(app, command);
+    add_timeline_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

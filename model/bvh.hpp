@@ -12,6 +12,7 @@ namespace rtu::model {
 struct BvhOptions {
     std::uint32_t width = 4;           ///< children a node: 2, 4, 6 or 8
     std::uint32_t max_leaf_pairs = 1;  ///< pairs a leaf, 1..8
+    NodeFormat node_format = NodeFormat::Full;
 };
 
 /// Builds a BVH over the pairs' boxes with Embree's binned SAH builder and lays it out as memory_image.hpp
@@ -19,10 +20,11 @@ struct BvhOptions {
 /// image beyond the 16 GiB that a NodeRef can address.
 [[nodiscard]] MemoryImage build_bvh(const TriangleMesh& mesh, const Pairing& pairing, BvhOptions options);
 
-/// Checks the image against the mesh: every child box lies in its parent's box (bit-exact, no slack), every
-/// leaf's box holds its pairs' vertices, every triangle is in exactly one leaf with its file corners in its
-/// file order, every reference points into the image. Throws std::logic_error naming the first address that
-/// is wrong.
+/// Checks the image against the mesh; of quantised nodes the exact ones, and that each is what quantise()
+/// makes of its exact one and encloses it: every child box lies in its parent's box (bit-exact, no slack),
+/// every leaf's box holds its pairs' vertices, every triangle is in exactly one leaf with its file corners in
+/// its file order, every reference points into the image. Throws std::logic_error naming the first address
+/// that is wrong.
 void validate(const MemoryImage& image, const TriangleMesh& mesh);
 
 }  // namespace rtu::model

@@ -8,6 +8,7 @@
 
 #include "model/bvh.hpp"
 #include "model/error.hpp"
+#include "model/quantised_node.hpp"
 
 namespace rtu::model {
 
@@ -189,8 +190,7 @@ MemoryImage build_bvh(const TriangleMesh& mesh, const Pairing& pairing, BvhOptio
     count(tree.root(), 1, image);
     if (tree.root().is_leaf) image.node_count = image.depth = 1;  // the root is always an inner node
 
-    const std::uint64_t bytes =
-        image.node_count * MemoryImage::node_bytes(image.width) + image.pair_count * image_block_bytes;
+    const std::uint64_t bytes = image.node_count * image.node_bytes() + image.pair_count * image_block_bytes;
     if (bytes > max_image_bytes) {
         throw Error("{}: expected an image of at most {} bytes, got {}", mesh.name, max_image_bytes, bytes);
     }
@@ -208,7 +208,7 @@ MemoryImage build_bvh(const TriangleMesh& mesh, const Pairing& pairing, BvhOptio
         default:
             image.bounds = write_image<8>(image, mesh, pairing, tree.root());
     }
-    return image;
+    return options.node_format == NodeFormat::Full ? image : quantise_nodes(image);
 }
 
 }  // namespace rtu::model

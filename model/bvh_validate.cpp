@@ -2,6 +2,7 @@
 
 #include "model/bvh.hpp"
 #include "model/error.hpp"
+#include "model/quantised_node.hpp"
 
 namespace rtu::model {
 
@@ -39,12 +40,15 @@ class Validator {
     }
 
     void check_node(NodeRef ref, const Aabb& parent_box) {
-        check_address(ref, sizeof(Node<Width>));
+        check_address(ref, image_.node_bytes());
         ++nodes_;
         RTU_CHECK(nodes_ <= image_.node_count, "node at address {} is reached twice", ref.address());
-        const auto& node = image_.template node<Width>(ref);
+        const bool is_full = image_.format == NodeFormat::Full;
+        const auto& node =
+            is_full ? image_.template node<Width>(ref) : image_.template exact_node<Width>(ref);
         RTU_CHECK(node.child_count >= 1 && node.child_count <= Width, "node at address {} has {} children",
                   ref.address(), node.child_count);
+        if (!is_full) check_quantised(ref, image_.template node_as<QuantisedNode<Width>>(ref), node);
         Aabb whole;
         for (std::uint32_t i = 0; i < node.child_count; ++i) {
             const Aabb box = node.box(i);
@@ -58,6 +62,19 @@ class Validator {
         // Tight as well as enclosing: a loose box would be correct and slow, and nobody would notice.
         RTU_CHECK(whole == parent_box, "node at address {}: its children's boxes do not make its own",
                   ref.address());
+    }
+
+    void check_quantised(NodeRef ref, const QuantisedNode<Width>& node, const Node<Width>& exact) const {
+        const QuantisedNode<Width> expected = quantise(exact);
+        RTU_CHECK(node.origin == expected.origin && node.exponent == expected.exponent &&
+                      node.child_count == expected.child_count && node.planes == expected.planes,
+                  "node at address {}: its boxes are not those of the exact node, quantised", ref.address());
+        for (std::uint32_t i = 0; i < exact.child_count; ++i) {
+            RTU_CHECK(node.child(i) == exact.child[i], "node at address {}: child {} is another one",
+                      ref.address(), i);
+            RTU_CHECK(node.box(i).contains(exact.box(i)), "node at address {}: box {} is not enclosed",
+                      ref.address(), i);
+        }
     }
 
     void check_leaf(NodeRef ref, const Aabb& box) {

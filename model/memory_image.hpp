@@ -6,6 +6,7 @@
 //                                child order); the root is the node at address 0
 //   node_count * node_bytes      leaves, 64 bytes a pair, in the order in which the same walk meets them
 //
+// Quantised inner nodes, and their order, are in quantised_node.hpp; this is the full format.
 // Inner node of a W-wide tree (binary32 structure of arrays; 64, 128, 192, 256 bytes for W = 2, 4, 6, 8):
 //   float  lo_x[W], lo_y[W], lo_z[W], hi_x[W], hi_y[W], hi_z[W]   child boxes; unused: lo = +inf, hi = -inf
 //   uint32 child[W]                                               NodeRef; unused: 0
@@ -31,6 +32,7 @@
 #include <vector>
 
 #include "model/aabb.hpp"
+#include "model/node_format.hpp"
 #include "model/pair.hpp"
 
 namespace rtu::model {
@@ -64,9 +66,12 @@ class NodeRef {
     std::uint32_t bits_ = 0;
 };
 
-/// An inner node exactly as it lies in the image.
+/// A full inner node exactly as it lies in the image.
 template <std::uint32_t Width>
 struct alignas(image_block_bytes) Node {
+    static constexpr std::uint32_t width = Width;
+    static constexpr NodeFormat format = NodeFormat::Full;
+
     std::array<std::array<std::array<float, Width>, 3>, 2> planes;  ///< [0: lo, 1: hi][axis][child]
     std::array<NodeRef, Width> child;
     std::uint32_t child_count;
@@ -113,21 +118,40 @@ struct MemoryImage {
         std::array<std::byte, image_block_bytes> bytes;
     };
     std::vector<Block> blocks;
+    /// Of quantised nodes only: the node of the same place with the boxes that the quantised ones stand for,
+    /// as Node<width>. No part of the image: it tells which boxes are entered because of quantisation.
+    std::vector<Block> exact_nodes;
     Aabb bounds;  ///< of the whole scene
     std::uint32_t width = 4;
+    NodeFormat format = NodeFormat::Full;
     std::uint32_t depth = 0;  ///< inner nodes on the longest path from the root
     std::uint64_t node_count = 0;
     std::uint64_t leaf_count = 0;
     std::uint64_t pair_count = 0;  ///< pairs and lone triangles in all leaves
 
-    [[nodiscard]] static std::uint64_t node_bytes(std::uint32_t width) {
-        return (std::uint64_t(width) * 28 + 4 + 63) / 64 * 64;
+    [[nodiscard]] static std::uint64_t node_bytes(std::uint32_t width, NodeFormat format) {
+        const std::uint64_t used_bytes =
+            format == NodeFormat::Full ? std::uint64_t(width) * 28 + 4 : 24 + width * 6 + width / 2;
+        return (used_bytes + image_block_bytes - 1) / image_block_bytes * image_block_bytes;
     }
+    [[nodiscard]] std::uint64_t node_bytes() const { return node_bytes(width, format); }
     [[nodiscard]] std::uint64_t size_bytes() const { return blocks.size() * image_block_bytes; }
     [[nodiscard]] NodeRef root() const { return NodeRef::inner(0); }
     template <std::uint32_t Width>
     [[nodiscard]] const Node<Width>& node(NodeRef ref) const {
-        return *reinterpret_cast<const Node<Width>*>(&blocks[ref.address() / image_block_bytes]);
+        return node_as<Node<Width>>(ref);
+    }
+    /// An inner node, Node or QuantisedNode as `width` and `format` say.
+    template <class AnyNode>
+    [[nodiscard]] const AnyNode& node_as(NodeRef ref) const {
+        return *reinterpret_cast<const AnyNode*>(&blocks[ref.address() / image_block_bytes]);
+    }
+    /// Of quantised nodes: the node of `ref` with exact boxes.
+    template <std::uint32_t Width>
+    [[nodiscard]] const Node<Width>& exact_node(NodeRef ref) const {
+        const std::uint64_t index = ref.address() / node_bytes();
+        return *reinterpret_cast<const Node<Width>*>(
+            &exact_nodes[index * sizeof(Node<Width>) / image_block_bytes]);
     }
     [[nodiscard]] const LeafPair& leaf_pair(NodeRef ref, std::uint32_t index) const {
         return *reinterpret_cast<const LeafPair*>(&blocks[ref.address() / image_block_bytes + index]);

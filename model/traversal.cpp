@@ -5,36 +5,51 @@
 
 #include "model/error.hpp"
 #include "model/pair_test.hpp"
+#include "model/quantised_node.hpp"
 #include "model/slab_test.hpp"
 
 namespace rtu::model {
 
 namespace {
 
-// Calls `f` with the tree's width as a constant.
-template <class F>
+// Calls `f` with the tree's type of node.
+template <template <std::uint32_t> class AnyNode, class F>
 auto with_width(const MemoryImage& image, F f) {
     switch (image.width) {
         case 2:
-            return f.template operator()<2>();
+            return f.template operator()<AnyNode<2>>();
         case 4:
-            return f.template operator()<4>();
+            return f.template operator()<AnyNode<4>>();
         case 6:
-            return f.template operator()<6>();
+            return f.template operator()<AnyNode<6>>();
         default:
-            return f.template operator()<8>();
+            return f.template operator()<AnyNode<8>>();
     }
+}
+template <class F>
+auto with_node(const MemoryImage& image, F f) {
+    return image.format == NodeFormat::Full ? with_width<Node>(image, f)
+                                            : with_width<QuantisedNode>(image, f);
+}
+
+template <std::uint32_t Width>
+NodeRef child_of(const Node<Width>& node, std::uint32_t i) {
+    return node.child[i];
+}
+template <std::uint32_t Width>
+NodeRef child_of(const QuantisedNode<Width>& node, std::uint32_t i) {
+    return node.child(i);
 }
 
 // Of the children that the ray enters, at least one, returns the nearest and pushes the others so that nearer
 // ones lie higher; of equally near ones the lowest index counts as nearest.
-template <std::uint32_t Width>
-[[gnu::always_inline]] inline StackEntry push_all_but_nearest(const Node<Width>& node,
-                                                              const SlabHits<Width>& hits,
+template <class AnyNode>
+[[gnu::always_inline]] inline StackEntry push_all_but_nearest(const AnyNode& node,
+                                                              const SlabHits<AnyNode::width>& hits,
                                                               TraversalStack& stack) {
     const auto first_of = [&](std::uint32_t mask) {
         const auto child = std::uint32_t(std::countr_zero(mask));
-        return StackEntry{node.child[child], hits.t_near[child]};
+        return StackEntry{child_of(node, child), hits.t_near[child]};
     };
     const std::size_t base = stack.size();
     StackEntry nearest = first_of(hits.mask);
@@ -70,12 +85,12 @@ PairVisit update_closest(Closest& closest, const LeafPair& pair, const RaySetup&
     return visit;
 }
 
-// The whole traversal of one ray, with the tree's width known to the compiler and the ray's constants in
+// The whole traversal of one ray, with the tree's nodes known to the compiler and the ray's constants in
 // registers. The nearest child is visited next without passing through the stack.
-template <std::uint32_t Width>
+template <class AnyNode>
 Closest run(const MemoryImage& image, const RaySetup& ray, RayKind kind, TraversalStack& stack,
             TraversalCounts& counts) {
-    const SlabRay<slab_lanes<Width>> slab_ray(ray);
+    const SlabRay<slab_lanes<AnyNode::width>> slab_ray(ray);
     Closest closest{Hit{.t = ray.t_max}};
     StackEntry current{image.root(), ray.t_min};
     while (true) {
@@ -87,8 +102,8 @@ Closest run(const MemoryImage& image, const RaySetup& ray, RayKind kind, Travers
                 if (kind == RayKind::AnyHit && closest.is_found) return closest;
             }
         } else {
-            const Node<Width>& node = image.node<Width>(current.ref);
-            const SlabHits<Width> hits = slab_test(node, slab_ray, closest.hit.t);
+            const AnyNode& node = image.node_as<AnyNode>(current.ref);
+            const SlabHits<AnyNode::width> hits = slab_test(node, slab_ray, closest.hit.t);
             counts.box_tests += node.child_count;
             ++counts.node_visits;
             if (hits.mask != 0) {
@@ -121,16 +136,24 @@ bool start(Traversal& traversal, const MemoryImage& image, const Ray& ray, RayKi
 }
 
 std::uint32_t child_count(const MemoryImage& image, NodeRef ref) {
-    return with_width(image, [&]<std::uint32_t Width>() { return image.node<Width>(ref).child_count; });
+    return with_node(image,
+                     [&]<class AnyNode>() { return std::uint32_t(image.node_as<AnyNode>(ref).child_count); });
 }
 
-std::uint32_t visit_node(Traversal& traversal, const MemoryImage& image) {
-    return with_width(image, [&]<std::uint32_t Width>() {
-        const Node<Width>& node = image.node<Width>(traversal.current.ref);
-        const SlabRay<slab_lanes<Width>> ray(traversal.ray);
-        const SlabHits<Width> hits = slab_test(node, ray, traversal.closest.hit.t);
+NodeVisit visit_node(Traversal& traversal, const MemoryImage& image) {
+    return with_node(image, [&]<class AnyNode>() {
+        constexpr std::uint32_t width = AnyNode::width;
+        const NodeRef ref = traversal.current.ref;
+        const AnyNode& node = image.node_as<AnyNode>(ref);
+        const SlabRay<slab_lanes<width>> ray(traversal.ray);
+        const SlabHits<width> hits = slab_test(node, ray, traversal.closest.hit.t);
         if (hits.mask != 0) traversal.stack.push(push_all_but_nearest(node, hits, traversal.stack));
-        return node.child_count;
+        NodeVisit visit{node.child_count, std::uint32_t(std::popcount(hits.mask)), 0};
+        if constexpr (AnyNode::format == NodeFormat::Quantised) {
+            const auto exact = slab_test(image.exact_node<width>(ref), ray, traversal.closest.hit.t);
+            visit.extra_hits = std::uint32_t(std::popcount(hits.mask & ~exact.mask));
+        }
+        return visit;
     });
 }
 
@@ -157,7 +180,7 @@ std::optional<Hit> trace(TraversalStack& stack, const MemoryImage& image, const 
     TraversalCounts mine;
     const RaySetup setup = make_ray_setup(ray, image.bounds);
     const Closest closest =
-        with_width(image, [&]<std::uint32_t Width>() { return run<Width>(image, setup, kind, stack, mine); });
+        with_node(image, [&]<class AnyNode>() { return run<AnyNode>(image, setup, kind, stack, mine); });
     if (counts != nullptr) *counts += mine;
     return closest.is_found ? std::optional(closest.hit) : std::nullopt;
 }

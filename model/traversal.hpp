@@ -78,9 +78,16 @@ struct Traversal {
 /// Boxes that a visit of inner node `ref` tests: its children, 1 to width.
 [[nodiscard]] std::uint32_t child_count(const MemoryImage& image, NodeRef ref);
 
+/// What one visit of an inner node did.
+struct NodeVisit {
+    std::uint32_t box_tests = 0;   ///< its children, 1 to width
+    std::uint32_t box_hits = 0;    ///< of those, entered: pushed
+    std::uint32_t extra_hits = 0;  ///< of those, with a quantised box only: the exact box is not entered
+};
+
 /// Tests all children of `current` (an inner node) and pushes those that the ray enters, far ones first;
-/// among equal distances the lower child index is visited first. Returns the number of boxes tested.
-std::uint32_t visit_node(Traversal& traversal, const MemoryImage& image);
+/// among equal distances the lower child index is visited first.
+NodeVisit visit_node(Traversal& traversal, const MemoryImage& image);
 
 /// What one pair test took.
 struct PairVisit {

@@ -43,9 +43,11 @@ Activity BoxUnit::issue(Cycle now) {
         const bool has_all_lanes = free_lanes == config_.boxes_per_cycle;
         if (lanes > free_lanes && !has_all_lanes) break;
         nodes_in->pop(now);
-        walk.visit_node();
+        const model::NodeVisit visit = walk.visit_node();
         ++counters_.node_visits;
         counters_.box_tests += boxes;
+        counters_.box_hits += visit.box_hits;
+        counters_.extra_box_hits += visit.extra_hits;
         const std::uint32_t last_cycle = (boxes - 1) / config_.boxes_per_cycle;
         lanes_free_at_ = now + last_cycle + 1;
         pipeline_.push(now + last_cycle, token);

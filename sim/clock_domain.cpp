@@ -83,6 +83,7 @@ void ClockDomain::tick_batch() {
     const Cycle end = start + batch_cycles;
     while (now_ < end) {
         for (ClockedUnit* unit : units_) unit->step(now_);
+        if (observer_ != nullptr) observer_->after(now_, now_ + 1);
         if (is_done_()) {
             ++now_;
             sc_core::sc_pause();
@@ -92,6 +93,7 @@ void ClockDomain::tick_batch() {
         if (next > now_ + 1) {
             if (next == no_cycle) fail();
             for (ClockedUnit* unit : units_) unit->skip(now_, next - now_ - 1);
+            if (observer_ != nullptr) observer_->after(now_ + 1, next);
         }
         now_ = next;
     }
@@ -101,6 +103,7 @@ void ClockDomain::tick_batch() {
 
 void ClockDomain::end_of_cycle() {
     guard([this] {
+        if (observer_ != nullptr) observer_->after(now_, now_ + 1);
         ++now_;
         if (is_done_()) {
             sc_core::sc_pause();

@@ -18,6 +18,15 @@ enum class ClockMode : std::uint8_t {
     Verify,  ///< every unit has its own SC_METHOD on one sc_clock
 };
 
+/// Looks on while a domain runs. Everything in the domain may be read, and nothing changed.
+class CycleObserver {
+  public:
+    virtual ~CycleObserver() = default;
+    /// Told after every cycle, and after every stretch in which no channel held anything: in all cycles of
+    /// [begin, end) each unit did one thing.
+    virtual void after(Cycle begin, Cycle end) = 0;
+};
+
 /// The clock of a group of units. Build it first, then channels and units (units add themselves), then `run`.
 class ClockDomain final : public sc_core::sc_module {
   public:
@@ -29,6 +38,11 @@ class ClockDomain final : public sc_core::sc_module {
     /// far. Called again, it goes on from there. `on_batch()` is called now and then, to tell how far it is.
     /// Throws std::logic_error with every unit's state when nothing moves for `watchdog_cycles`.
     Cycle run(std::function<bool()> is_done, std::function<void()> on_batch = {});
+
+    /// From now on `observer` is told of every cycle; it must outlive the run.
+    void observe(CycleObserver& observer) { observer_ = &observer; }
+    /// Every unit, in the order in which they were made.
+    [[nodiscard]] const std::vector<ClockedUnit*>& units() const { return units_; }
 
     void note_push() { ++items_, ++pushes_; }
     void note_pop() { --items_; }
@@ -50,6 +64,7 @@ class ClockDomain final : public sc_core::sc_module {
     std::vector<ClockedUnit*> units_;
     std::function<bool()> is_done_;
     std::function<void()> on_batch_;
+    CycleObserver* observer_ = nullptr;
     sc_core::sc_event next_batch_;
     std::unique_ptr<sc_core::sc_clock> clock_;
     std::exception_ptr failure_;

@@ -34,6 +34,11 @@ class ClockedUnit : public sc_core::sc_module {
     /// One line for the watchdog: what the unit holds and what it waits for.
     [[nodiscard]] virtual std::string describe() const = 0;
 
+    /// What the unit did in the cycles since it was last asked: of a range in which it did one thing only.
+    [[nodiscard]] Activity activity_since(const CycleAccount& before) const {
+        if (account_.busy != before.busy) return Activity::Busy;
+        return account_.blocked != before.blocked ? Activity::Blocked : Activity::Waiting;
+    }
     /// Cycles so far; waiting cycles after the last work count as idle.
     [[nodiscard]] CycleAccount cycle_account() const {
         CycleAccount result = account_;

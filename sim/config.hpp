@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "model/node_format.hpp"
+
 namespace rtu::sim {
 
 /// How the dual-triangle unit works through a pair.
@@ -45,6 +47,7 @@ struct Config {
     struct Bvh {
         std::uint32_t width = 4;
         std::uint32_t max_leaf_pairs = 1;
+        model::NodeFormat node_format = model::NodeFormat::Full;
     } bvh;
 
     struct Rtu {
@@ -62,6 +65,7 @@ struct Config {
             std::uint32_t boxes_per_cycle = 4;
             std::uint32_t packs_nodes = 0;  ///< 1: idle lanes of a node with few children take the next node
             std::uint32_t latency_cycles = 12;
+            std::uint32_t dequantise_cycles = 5;  ///< more, for quantised nodes
         } box;
 
         struct Pair {
@@ -110,5 +114,11 @@ struct Config {
         std::uint32_t latency_cycles = 60;  ///< controller and link, both ways together
     } dram;
 };
+
+/// Issue to result of a box test: of quantised nodes the planes are made first.
+[[nodiscard]] constexpr std::uint32_t box_latency_cycles(const Config& config) {
+    const bool is_full = config.bvh.node_format == model::NodeFormat::Full;
+    return config.rtu.box.latency_cycles + (is_full ? 0 : config.rtu.box.dequantise_cycles);
+}
 
 }  // namespace rtu::sim

@@ -52,6 +52,9 @@ const ConfigKey rows[] = {
      "[rayflex] and [prism] test 4 boxes a node", [](Config& c) -> Field { return &c.bvh.width; }},
     {"bvh.max_leaf_pairs", "pairs", "triangle pairs in a leaf", 1, 8, Form::Any,
      "[gen-rt] a quad leaf holds 1 pair", [](Config& c) -> Field { return &c.bvh.max_leaf_pairs; }},
+    {"bvh.node_format", "", "boxes of inner nodes: binary32, or 8-bit steps on a grid of the node", 0, 0,
+     Form::Any, "[rtl] reads binary32; products compress, as [YKL17] and [gen-rt]",
+     [](Config& c) -> Field { return &c.bvh.node_format; }},
     {"rtu.count", "RTUs", "ray-tracing units that share L2 and DRAM", 1, 64, Form::Any,
      "chosen: one unit is what is studied", [](Config& c) -> Field { return &c.rtu.count; }},
     {"rtu.ray_slots", "rays", "rays in flight in an RTU", 1, 4096, Form::Any,
@@ -76,6 +79,9 @@ const ConfigKey rows[] = {
     {"rtu.box.latency_cycles", "cycles", "issue to result of a box test", 1, 1000, Form::Any,
      "[rtl] 12 stages, as many as the pipeline of [rayflex]",
      [](Config& c) -> Field { return &c.rtu.box.latency_cycles; }},
+    {"rtu.box.dequantise_cycles", "cycles", "more for a node whose boxes are quantised: its planes are made",
+     0, 1000, Form::Any, "assumed: 4 stages of the adder of [rtl], 1 to normalise 8 bits; no multiplier",
+     [](Config& c) -> Field { return &c.rtu.box.dequantise_cycles; }},
     {"rtu.pair.mode", "", "how a pair of triangles is tested", 0, 0, Form::Any,
      "chosen: shared common-edge arithmetic is what is studied",
      [](Config& c) -> Field { return &c.rtu.pair.mode; }},
@@ -171,6 +177,8 @@ const ConfigKey rows[] = {
 
 constexpr std::array<std::string_view, 3> mode_names{"single", "dual_independent", "dual_shared"};
 constexpr std::array<std::string_view, 2> memory_model_names{"dram", "flat"};
+constexpr std::array<std::string_view, 2> node_format_names{to_string(model::NodeFormat::Full),
+                                                            to_string(model::NodeFormat::Quantised)};
 
 /// Insertions, deletions and substitutions between two words (Levenshtein's distance).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -225,6 +233,7 @@ std::span<const std::string_view> pair_mode_names() { return mode_names; }
 std::span<const std::string_view> choice_names(const ConfigKey::Field& field) {
     if (std::holds_alternative<PairMode*>(field)) return mode_names;
     if (std::holds_alternative<MemoryModel*>(field)) return memory_model_names;
+    if (std::holds_alternative<model::NodeFormat*>(field)) return node_format_names;
     return {};
 }
 
@@ -242,6 +251,7 @@ ConfigValue config_value(const Config& config, const ConfigKey& key) {
     if (const auto* number = std::get_if<std::uint32_t*>(&field)) return **number;
     if (auto* const* model = std::get_if<MemoryModel*>(&field))
         return memory_model_names[std::size_t(**model)];
+    if (auto* const* format = std::get_if<model::NodeFormat*>(&field)) return to_string(**format);
     return mode_names[std::size_t(*std::get<PairMode*>(field))];
 }
 

@@ -12,6 +12,8 @@ struct SchedulerCounters {
     std::uint64_t rays_finished = 0;
     std::uint64_t node_fetches = 0;
     std::uint64_t leaf_fetches = 0;
+    std::uint64_t node_fetch_bytes = 0;
+    std::uint64_t leaf_fetch_bytes = 0;
     std::uint64_t spilled_entries = 0;
     std::uint64_t reloaded_entries = 0;
     std::uint64_t slot_cycles = 0;
@@ -23,6 +25,8 @@ inline constexpr std::array scheduler_counter_rows = std::to_array<CounterRow<Sc
     {"rays_finished", "rays", "rays whose hit was returned", &SchedulerCounters::rays_finished},
     {"node_fetches", "requests", "inner nodes asked for", &SchedulerCounters::node_fetches},
     {"leaf_fetches", "requests", "leaves asked for", &SchedulerCounters::leaf_fetches},
+    {"node_fetch_bytes", "bytes", "of the nodes asked for", &SchedulerCounters::node_fetch_bytes},
+    {"leaf_fetch_bytes", "bytes", "of the leaves asked for", &SchedulerCounters::leaf_fetch_bytes},
     {"spilled_entries", "entries", "stack entries written to memory", &SchedulerCounters::spilled_entries},
     {"reloaded_entries", "entries", "stack entries read back", &SchedulerCounters::reloaded_entries},
     {"slot_cycles", "cycles", "cycles that slots were held, over all slots", &SchedulerCounters::slot_cycles},
@@ -32,6 +36,8 @@ static_assert(has_row_for_every_field(scheduler_counter_rows));
 struct BoxCounters {
     std::uint64_t node_visits = 0;
     std::uint64_t box_tests = 0;
+    std::uint64_t box_hits = 0;
+    std::uint64_t extra_box_hits = 0;
     std::uint64_t issue_cycles = 0;
     friend bool operator==(const BoxCounters&, const BoxCounters&) = default;
 };
@@ -39,6 +45,9 @@ struct BoxCounters {
 inline constexpr std::array box_counter_rows = std::to_array<CounterRow<BoxCounters>>({
     {"node_visits", "nodes", "inner nodes tested", &BoxCounters::node_visits},
     {"box_tests", "tests", "ray-box tests, one per child", &BoxCounters::box_tests},
+    {"box_hits", "tests", "of those, boxes that the ray enters", &BoxCounters::box_hits},
+    {"extra_box_hits", "tests", "of those, entered because of quantisation only",
+     &BoxCounters::extra_box_hits},
     {"issue_cycles", "cycles", "cycles in which at least one lane was used", &BoxCounters::issue_cycles},
 });
 static_assert(has_row_for_every_field(box_counter_rows));

@@ -19,12 +19,24 @@ class PushIf : public sc_core::sc_interface {
     virtual void push(Cycle now, const T& item) = 0;
 };
 
+/// What a channel does, for observers of a run, between cycles.
+class ChannelView {
+  public:
+    virtual ~ChannelView() = default;
+    [[nodiscard]] virtual std::size_t depth() const = 0;
+    /// Items inside, visible or not.
+    [[nodiscard]] virtual std::size_t size() const = 0;
+    /// Items that were pushed, and popped, in cycle `now`, the last one simulated.
+    [[nodiscard]] virtual std::size_t pushed(Cycle now) const = 0;
+    [[nodiscard]] virtual std::size_t popped(Cycle now) const = 0;
+};
+
 /// The only channel between units: registered and bounded, with one writer and one reader.
 /// A push is visible to the reader in the next cycle, and a pop frees its entry for the writer in the next
 /// cycle, so the order in which units are ticked cannot matter. There is no commit step: both ends compare
 /// cycle stamps. Full rate needs depth >= 2.
 template <class T>
-class Fifo final : public sc_core::sc_object, public PushIf<T> {
+class Fifo final : public sc_core::sc_object, public PushIf<T>, public ChannelView {
   public:
     Fifo(const char* name, std::size_t depth, ClockDomain& domain)
         : sc_core::sc_object(name), depth_(depth), domain_(domain) {
@@ -62,8 +74,18 @@ class Fifo final : public sc_core::sc_object, public PushIf<T> {
     }
 
     /// Items inside, visible or not: for state dumps and checks at the end, not for decisions within a cycle.
-    [[nodiscard]] std::size_t size() const { return tail_ - head_; }
-    [[nodiscard]] std::size_t depth() const { return depth_; }
+    [[nodiscard]] std::size_t size() const override { return tail_ - head_; }
+    [[nodiscard]] std::size_t depth() const override { return depth_; }
+    [[nodiscard]] std::size_t pushed(Cycle now) const override {
+        return last_push_ == now ? tail_ - tail_at_start_ : 0;
+    }
+    [[nodiscard]] std::size_t popped(Cycle now) const override {
+        return last_pop_ == now ? head_ - head_at_start_ : 0;
+    }
+    /// The item that was pushed as number `index` of cycle `now`, from 0.
+    [[nodiscard]] const T& pushed_item(std::size_t index) const {
+        return items_[(tail_at_start_ + index) & mask_];
+    }
     [[nodiscard]] const char* kind() const override { return "rtu_fifo"; }
 
   private:

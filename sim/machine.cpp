@@ -8,6 +8,7 @@
 
 #include "sim/kernel.hpp"
 #include "sim/linked_host.hpp"
+#include "sim/machine_observer.hpp"
 #include "sim/memory_boundary.hpp"
 #include "sim/memory_counters.hpp"
 #include "sim/ray_batches.hpp"
@@ -24,6 +25,15 @@ model::StackRegion stack_region(const Config& config, const model::MemoryImage& 
     model::StackRegion region = model::stack_region(image, config.rtu.stack_entries, config.l1.line_bytes);
     region.base_address += std::uint64_t(rtu) * config.rtu.ray_slots * region.slot_bytes;
     return region;
+}
+
+void add_channels(const std::vector<sc_core::sc_object*>& objects, std::vector<NamedChannel>& channels) {
+    for (const sc_core::sc_object* object : objects) {
+        if (const auto* channel = dynamic_cast<const ChannelView*>(object)) {
+            channels.push_back({object->name(), channel});
+        }
+        add_channels(object->get_child_objects(), channels);
+    }
 }
 
 // A transfer may take longer than anything within the machine.
@@ -50,6 +60,14 @@ class Machine {
         host_ = std::make_unique<LinkedHost>("host_side", domain_, config, *batches);
         source_.arrivals_in(host_->arrivals);
         sink_.finished_out(host_->finished);
+    }
+
+    void observe(MachineObserver& observer) {
+        MachineView view{domain_, {}, {}};
+        add_channels(sc_core::sc_get_top_level_objects(), view.channels);
+        for (const auto& node : nodes_) view.rtus.push_back({node->rtu, node->requests});
+        observer.attach(view);
+        domain_.observe(observer);
     }
 
     MachineResult run(const SimulationProgress& progress) {
@@ -193,6 +211,18 @@ MachineResult simulate(const Config& config, const model::MemoryImage& image, Ra
         return Machine(config, image, rays, nullptr, kind, on_hit, mode).run(progress);
     RayBatches batches(rays, config.link.batch_rays);
     return Machine(config, image, batches, &batches, kind, on_hit, mode).run(progress);
+}
+
+MachineResult simulate_observed(const Config& config, const model::MemoryImage& image, RaySupply& rays,
+                                model::RayKind kind, const HitConsumer& on_hit, MachineObserver& observer,
+                                ClockMode mode) {
+    start_fresh_kernel();
+    std::optional<RayBatches> batches;
+    if (config.link.count > 0) batches.emplace(rays, config.link.batch_rays);
+    RaySupply& supply = batches ? static_cast<RaySupply&>(*batches) : rays;
+    Machine machine(config, image, supply, batches ? &*batches : nullptr, kind, on_hit, mode);
+    machine.observe(observer);
+    return machine.run({});
 }
 
 MachineResult simulate(const Config& config, const model::MemoryImage& image,

@@ -12,7 +12,7 @@ RayScheduler::RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, co
     : ClockedUnit(name, domain),
       config_(config),
       spill_block_(model::spill_block_size(config.stack_entries)),
-      node_bytes_(model::MemoryImage::node_bytes(image.width)),
+      node_bytes_(image.node_bytes()),
       image_(image),
       kind_(kind),
       slots_(slots),
@@ -129,6 +129,7 @@ void RayScheduler::queue_fetch(std::uint32_t slot) {
                        .tag = slot,
                        .source = std::uint8_t(target)});
     ++(ref.is_leaf() ? counters_.leaf_fetches : counters_.node_fetches);
+    (ref.is_leaf() ? counters_.leaf_fetch_bytes : counters_.node_fetch_bytes) += bytes;
 }
 
 void RayScheduler::queue_spill(std::uint32_t slot) {

@@ -31,12 +31,8 @@ class RayWalk {
     [[nodiscard]] std::uint32_t child_count() const {
         return is_recorded_ ? recorded_.child_count() : model::child_count(*image_, computed_.current.ref);
     }
-    void visit_node() {
-        if (is_recorded_) {
-            recorded_.visit_node();
-        } else {
-            model::visit_node(computed_, *image_);
-        }
+    model::NodeVisit visit_node() {
+        return is_recorded_ ? recorded_.visit_node() : model::visit_node(computed_, *image_);
     }
     /// Tests pair `index` of the current leaf; pairs are tested in order.
     model::PairVisit visit_pair(std::uint32_t index) {

@@ -20,6 +20,12 @@ std::size_t fill_depth(const Config& config) {
     return config.memory.model == MemoryModel::Flat ? flat_fill_depth : config.l1.mshrs;
 }
 
+Config::Rtu::Box box_config(const Config& config) {
+    Config::Rtu::Box box = config.rtu.box;
+    box.latency_cycles = box_latency_cycles(config);
+    return box;
+}
+
 }  // namespace
 
 Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config, std::uint32_t index,
@@ -38,7 +44,7 @@ Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config
       pair_results_("pair_results",
                     depth_for(std::max(config.rtu.pair.testers, config.rtu.results_per_cycle)), domain),
       scheduler("scheduler", domain, config.rtu, job.image, job.kind, slots_, job.stacks),
-      box("box", domain, config.rtu.box, slots_),
+      box("box", domain, box_config(config), slots_),
       pair("pair", domain, config.rtu.pair, slots_),
       l1("l1", domain, config.l1, 1, reply_channel_count, std::uint8_t(index)) {
     scheduler.rays_in(rays_in);

@@ -23,6 +23,15 @@ struct RtuJob {
     model::StackRegion stacks;
 };
 
+/// What a ray's token passes through, and where rays lie.
+struct RtuChannels {
+    const Fifo<MemoryRequest>& requests;
+    const Fifo<MemoryReply>&nodes, &leaves, &stack_blocks;
+    const Fifo<SlotToken>&box_results, &pair_results;
+    const Fifo<HitMessage>& hits;
+    const RaySlots& slots;
+};
+
 /// One ray-tracing unit: scheduler, box unit, dual-triangle unit, L1, and the channels between them.
 ///
 ///   rays_in -> scheduler -> requests -> L1 -> nodes -> box unit ---> box_results -> scheduler -> hits_out
@@ -52,6 +61,10 @@ class Rtu final : public sc_core::sc_module {
 
     /// Throws std::logic_error unless everything that entered has left.
     void check_drained() const;
+    /// For observers of a run, between cycles.
+    [[nodiscard]] RtuChannels channels() const {
+        return {requests_, nodes_, leaves_, stack_blocks_, box_results_, pair_results_, hits_out, slots_};
+    }
 };
 
 }  // namespace rtu::sim

@@ -27,8 +27,9 @@ SceneReport described(const RunOptions& options) {
 }
 
 std::string image_text(const SceneReport& report) {
-    return fmt::format("pairing {} by {}, tree {} wide", report.pairing.method, report.pairing.edge_identity,
-                       report.bvh.width);
+    return fmt::format("pairing {} by {}, tree {} wide{}", report.pairing.method,
+                       report.pairing.edge_identity, report.bvh.width,
+                       report.bvh.node_format == "full" ? "" : ", " + report.bvh.node_format);
 }
 
 // The header of the file of rays; one that says little for a file that is no trace.

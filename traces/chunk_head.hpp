@@ -13,7 +13,7 @@ struct ChunkHead {
     std::string workload;
     std::uint32_t ray_count = 0;
     model::RayKind kind = model::RayKind::ClosestHit;
-    std::uint8_t variant = 0;  ///< rays: IdKind; visits: 1
+    std::uint8_t variant = 0;  ///< rays: IdKind; visits: 1 or 2
     std::uint64_t first_ray = 0;
 };
 

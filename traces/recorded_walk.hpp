@@ -37,7 +37,10 @@ class RecordedWalk {
     [[nodiscard]] model::NodeRef current() const { return visit_->ref; }
     /// Boxes that the visit of the current inner node tests.
     [[nodiscard]] std::uint32_t child_count() const { return visit_->tests; }
-    void visit_node() { stack_size_ += visit_->pushes; }
+    model::NodeVisit visit_node() {
+        stack_size_ += visit_->pushes;
+        return {visit_->tests, visit_->pushes, visit_->extra_hits};
+    }
     /// The next pair of the current leaf.
     model::PairVisit visit_pair() {
         --pair_tests_left_;

@@ -50,7 +50,7 @@ void write_image(ByteWriter& out, const TraceHeader& header) {
     out.number(header.image->fingerprint);
     out.number(header.image->size_bytes);
     out.number(header.image->node_count);
-    out.number(header.image->width);
+    out.number(std::uint32_t(header.image->width | std::uint32_t(header.image->node_format) << 8));
     out.text(header.image_text);
 }
 
@@ -59,12 +59,18 @@ void read_image(ByteReader& in, TraceHeader& header) {
     image.fingerprint = in.number<std::uint64_t>();
     image.size_bytes = in.number<std::uint64_t>();
     image.node_count = in.number<std::uint64_t>();
-    image.width = in.number<std::uint32_t>();
+    const auto shape = in.number<std::uint32_t>();
+    image.width = shape & 255;
+    if (shape >> 8 > std::uint32_t(model::NodeFormat::Quantised)) {
+        throw Error("expected nodes of format 0 (full) or 1 (quantised), got {}", shape >> 8);
+    }
+    image.node_format = model::NodeFormat(shape >> 8);
     if (image.width < 2 || image.width > model::max_bvh_width || image.width % 2 != 0) {
         throw Error("expected a tree 2, 4, 6 or 8 wide, got {}", image.width);
     }
     if (image.size_bytes > model::max_image_bytes || image.size_bytes % model::image_block_bytes != 0 ||
-        image.node_count > image.size_bytes / model::MemoryImage::node_bytes(image.width)) {
+        image.node_count >
+            image.size_bytes / model::MemoryImage::node_bytes(image.width, image.node_format)) {
         throw Error("expected nodes that fit into their image, got {} in {} bytes", image.node_count,
                     image.size_bytes);
     }

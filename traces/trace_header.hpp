@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/camera.hpp"
+#include "model/node_format.hpp"
 #include "model/ray.hpp"
 #include "traces/bytes.hpp"
 
@@ -20,6 +21,7 @@ struct ImageFacts {
     std::uint64_t size_bytes = 0;
     std::uint64_t node_count = 0;
     std::uint32_t width = 0;  ///< 2, 4, 6 or 8
+    model::NodeFormat node_format = model::NodeFormat::Full;
     friend bool operator==(const ImageFacts&, const ImageFacts&) = default;
 };
 

@@ -30,15 +30,15 @@
 //             16  text     name of the scene; text generator
 //   picture    u64 seed; u32 width, height in pixels; f32 camera: eye[3], target[3], up[3], tan_half_fov;
 //              text source of the camera
-//   visits     u64 fingerprint of the memory image; u64 its bytes; u64 its nodes; u32 width of the tree;
-//              text how it was made
+//   visits     u64 fingerprint of the memory image; u64 its bytes; u64 its nodes; u32 width of the tree,
+//              and 256 more when its nodes are quantised; text how it was made
 //
 // Payload of a chunk: at most 65,536 rays of one workload, in order. Workloads come one after another.
 //              0 32 bytes  name of the workload, padded with zeros
 //             32  u32      rays n
 //             36  u8       ray kind: 0 closest hit, 1 any hit
 //             37  u8       rays: what the ids are: 0 none, 1 pixel (y * width + x), 2 ray of another workload
-//                          visits: 0
+//                          visits: 1, or 2 with the column of extra hits
 //             38  u16      0
 //             40  u64      index of the first ray in the workload
 //   rays    48 columns of f32[n]: origin x, y, z, t_min, direction x, y, z, t_max; then, with ids, u32[n] ids
@@ -47,7 +47,9 @@
 //              hits; u32[m] what is visited: a NodeRef as in the memory image (model/memory_image.hpp);
 //              u32[m] stack entries dropped after the visit, because they start behind the closest hit;
 //              u8[m]  inner node: boxes tested + 16 * children pushed; leaf: pairs tested;
-//              u8[p]  triangles tested + 16 * those left to the exact pass, of each pair test in order
+//              u8[p]  triangles tested + 4 * better hits + 16 * those left to the exact pass + 64 * open
+//              sides, of each pair test in order; u8[m] extra hits: children entered by their quantised boxes
+//              only
 //   A column of 4-byte values is stored as 4 planes: the lowest byte of every value, the second byte, ...
 //
 // Payload of the end block: the header's payload once more; u64 blocks of the file, with the header and this

@@ -10,19 +10,23 @@ using model::NodeRef;
 
 // What is wrong with one visit by itself, if anything.
 const char* fault_of(const Visit& visit, const ImageFacts& image) {
-    const std::uint64_t node_bytes = MemoryImage::node_bytes(image.width);
+    const std::uint64_t node_bytes = MemoryImage::node_bytes(image.width, image.node_format);
     const std::uint64_t nodes_end = image.node_count * node_bytes, address = visit.ref.address();
     if (visit.ref.is_leaf()) {
         const std::uint64_t end = address + visit.ref.pair_count() * std::uint64_t{model::image_block_bytes};
         if (address < nodes_end || end > image.size_bytes) return "a leaf outside of the image's leaves";
         if (visit.tests < 1 || visit.tests > visit.ref.pair_count()) return "a count of pair tests";
-        if (visit.pushes != 0) return "pushes after a leaf";
+        if (visit.pushes != 0 || visit.extra_hits != 0) return "pushes after a leaf";
         return nullptr;
     }
     if (address >= nodes_end || address % node_bytes != 0 || visit.ref != NodeRef::inner(address)) {
         return "a node outside of the image's nodes";
     }
-    if (visit.tests < 1 || visit.tests > image.width || visit.pushes > visit.tests) return "a count of boxes";
+    const std::uint32_t most_extra = image.node_format == model::NodeFormat::Full ? 0 : visit.pushes;
+    if (visit.tests < 1 || visit.tests > image.width || visit.pushes > visit.tests ||
+        visit.extra_hits > most_extra) {
+        return "a count of boxes";
+    }
     return nullptr;
 }
 

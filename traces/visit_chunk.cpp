@@ -1,5 +1,7 @@
 #include "traces/visit_chunk.hpp"
 
+#include <algorithm>
+
 #include "traces/chunk_head.hpp"
 #include "traces/columns.hpp"
 #include "traces/visit_check.hpp"
@@ -9,6 +11,8 @@ namespace {
 
 // 0: pair tests without outcomes, which no machine with hit units can be timed by.
 constexpr std::uint8_t variant_with_outcomes = 1;
+// The same, and a column of the hits of quantised boxes only; for visits that have some.
+constexpr std::uint8_t variant_with_extra_hits = 2;
 
 // Two bits each.
 std::uint8_t packed(const PairTest& test) {
@@ -57,15 +61,18 @@ void take_rays(ByteReader& in, VisitChunk& chunk, std::uint32_t ray_count, std::
     if (hit != hit_count) throw Error("expected {} hits, got {}", hit_count, hit);
 }
 
-void take_visits(ByteReader& in, VisitChunk& chunk, std::uint32_t visit_count, std::uint32_t pair_count) {
+void take_visits(ByteReader& in, VisitChunk& chunk, std::uint32_t visit_count, std::uint32_t pair_count,
+                 bool has_extra_hits) {
     const auto refs = take_column<model::NodeRef>(in, visit_count);
     const auto dropped = take_column<std::uint32_t>(in, visit_count);
     const std::string_view shapes = in.take(visit_count), pairs = in.take(pair_count);
+    const std::string_view extra = in.take(has_extra_hits ? visit_count : 0);
     in.end();
     chunk.visits.reserve(visit_count);
     for (std::size_t i = 0; i < visit_count; ++i) {
         const std::uint8_t shape = byte_at(shapes, i);
-        chunk.visits.push_back({refs[i], dropped[i], std::uint8_t(shape & 15), std::uint8_t(shape >> 4)});
+        chunk.visits.push_back({refs[i], dropped[i], std::uint8_t(shape & 15), std::uint8_t(shape >> 4),
+                                has_extra_hits ? byte_at(extra, i) : std::uint8_t(0)});
     }
     chunk.pair_tests.reserve(pair_count);
     for (std::size_t i = 0; i < pair_count; ++i) {
@@ -77,9 +84,11 @@ void take_visits(ByteReader& in, VisitChunk& chunk, std::uint32_t visit_count, s
 
 std::string encode(const VisitChunk& chunk) {
     const std::vector<model::Hit> hits = hits_of(chunk);
+    const bool has_extra_hits =
+        std::ranges::any_of(chunk.visits, [](const Visit& visit) { return visit.extra_hits != 0; });
     ByteWriter out;
-    write_head(out, {chunk.workload, std::uint32_t(chunk.rays.size()), chunk.kind, variant_with_outcomes,
-                     chunk.first_ray});
+    write_head(out, {chunk.workload, std::uint32_t(chunk.rays.size()), chunk.kind,
+                     has_extra_hits ? variant_with_extra_hits : variant_with_outcomes, chunk.first_ray});
     out.number(std::uint32_t(chunk.visits.size()));
     out.number(std::uint32_t(chunk.pair_tests.size()));
     out.number(std::uint32_t(hits.size()));
@@ -95,15 +104,18 @@ std::string encode(const VisitChunk& chunk) {
     append_column(bytes, chunk.visits, [](const Visit& visit) { return visit.dropped_entries; });
     append_bytes(bytes, chunk.visits, [](const Visit& visit) { return visit.tests | visit.pushes << 4; });
     append_bytes(bytes, chunk.pair_tests, packed);
+    if (has_extra_hits) {
+        append_bytes(bytes, chunk.visits, [](const Visit& visit) { return visit.extra_hits; });
+    }
     return std::move(bytes);
 }
 
 VisitChunk decode_visit_chunk(std::string_view payload, const ImageFacts& image) {
     ByteReader in(payload);
     const ChunkHead head = read_head(in);
-    if (head.variant != variant_with_outcomes) {
-        throw Error("expected visits of variant {}, got {}: record them again", variant_with_outcomes,
-                    head.variant);
+    if (head.variant != variant_with_outcomes && head.variant != variant_with_extra_hits) {
+        throw Error("expected visits of variant {} or {}, got {}: record them again", variant_with_outcomes,
+                    variant_with_extra_hits, head.variant);
     }
     VisitChunk chunk{head.workload, head.kind, head.first_ray, {}, {}, {}};
     const auto visit_count = in.number<std::uint32_t>();
@@ -111,7 +123,7 @@ VisitChunk decode_visit_chunk(std::string_view payload, const ImageFacts& image)
     const auto hit_count = in.number<std::uint32_t>();
     in.zeros(4);
     take_rays(in, chunk, head.ray_count, hit_count);
-    take_visits(in, chunk, visit_count, pair_count);
+    take_visits(in, chunk, visit_count, pair_count, head.variant == variant_with_extra_hits);
     place_and_check(chunk, image);
     return chunk;
 }

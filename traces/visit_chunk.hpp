@@ -17,8 +17,9 @@ struct Visit {
     model::NodeRef ref;
     /// Stack entries dropped after it, because they start behind the closest hit.
     std::uint32_t dropped_entries = 0;
-    std::uint8_t tests = 0;   ///< inner node: boxes tested, 1 to 8; leaf: pairs tested, 1 to 8
-    std::uint8_t pushes = 0;  ///< inner node: children that went onto the stack, 0 to 8
+    std::uint8_t tests = 0;       ///< inner node: boxes tested, 1 to 8; leaf: pairs tested, 1 to 8
+    std::uint8_t pushes = 0;      ///< inner node: children that went onto the stack, 0 to 8
+    std::uint8_t extra_hits = 0;  ///< of those, 0 to pushes, as model::NodeVisit says
 };
 
 /// What one pair test took, as model::PairVisit says.

@@ -15,7 +15,7 @@ constexpr std::size_t rays_of_chunk = 1024;
 constexpr std::size_t visits_of_chunk = 1 << 20;
 
 Visit visit_leaf(VisitChunk& chunk, const model::MemoryImage& image, model::Traversal& traversal) {
-    Visit visit{traversal.current.ref, 0, 0, 0};
+    Visit visit{traversal.current.ref, 0, 0, 0, 0};
     while (visit.tests < visit.ref.pair_count() && !model::is_satisfied(traversal)) {
         const model::PairVisit pair = model::visit_pair(traversal, image, visit.tests);
         chunk.pair_tests.push_back({std::uint8_t(pair.triangle_tests), std::uint8_t(pair.exact_tests),
@@ -26,10 +26,11 @@ Visit visit_leaf(VisitChunk& chunk, const model::MemoryImage& image, model::Trav
 }
 
 Visit visit_inner(const model::MemoryImage& image, model::Traversal& traversal) {
-    Visit visit{traversal.current.ref, 0, 0, 0};
-    const std::size_t before = traversal.stack.size();
-    visit.tests = std::uint8_t(model::visit_node(traversal, image));
-    visit.pushes = std::uint8_t(traversal.stack.size() - before);
+    Visit visit{traversal.current.ref, 0, 0, 0, 0};
+    const model::NodeVisit node = model::visit_node(traversal, image);
+    visit.tests = std::uint8_t(node.box_tests);
+    visit.pushes = std::uint8_t(node.box_hits);
+    visit.extra_hits = std::uint8_t(node.extra_hits);
     return visit;
 }
 
@@ -51,7 +52,7 @@ std::vector<VisitChunk> record_part(const RayChunk& rays, std::size_t begin, std
 }  // namespace
 
 ImageFacts image_facts(const model::MemoryImage& image) {
-    return {model::fingerprint(image), image.size_bytes(), image.node_count, image.width};
+    return {model::fingerprint(image), image.size_bytes(), image.node_count, image.width, image.format};
 }
 
 void record_visits(VisitChunk& chunk, const model::MemoryImage& image, const model::Ray& ray,

@@ -78,6 +78,7 @@ void check(const model::MemoryImage& image, const RtlConfig& config) {
     if (image.width != config.width) {
         throw Error("rtl: expected a tree of width {}, got {}", config.width, image.width);
     }
+    if (image.format != model::NodeFormat::Full) throw Error("rtl: expected full nodes, got quantised ones");
     if (image.pair_count != image.leaf_count) {
         throw Error("rtl: expected leaves of one pair, got {} pairs in {} leaves", image.pair_count,
                     image.leaf_count);

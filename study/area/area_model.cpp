@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "model/memory_image.hpp"
+
 namespace rtu::study {
 namespace {
 
@@ -70,7 +72,7 @@ CacheBits cache_bits(const sim::Config& config) {
                         slot_bits = ceil_log2(config.rtu.ray_slots);
     const std::uint32_t line_number = address_bits - ceil_log2(cache.line_bytes), way = ceil_log2(cache.ways);
     const std::uint32_t target = slot_bits + sectors, targets = ceil_log2(cache.targets_per_mshr) + 1;
-    const double node_bytes = 64.0 * ((28 * config.bvh.width + 4 + 63) / 64);
+    const auto node_bytes = double(model::MemoryImage::node_bytes(config.bvh.width, config.bvh.node_format));
     return {double(line_number + 3 * sectors + ceil_log2(cache.mshrs) + way),
             double(line_number + way + targets + cache.targets_per_mshr * target + ceil_log2(cache.mshrs)),
             8 * node_bytes + 7 + 3 * slot_bits};
@@ -208,6 +210,13 @@ std::vector<AreaPart> box_area(std::uint32_t lanes, std::uint32_t width) {
     return parts;
 }
 
+AreaPart dequantiser_area(std::uint32_t lanes) {
+    // Shifting 8 bits until the first is a one, in 3 steps. The step is a power of two: no multiplier.
+    constexpr double normalise = 24 * mux2, planes = 6;
+    return formula("box", "dequantisers", planes * lanes, gate_counts("fp32_add") + logic(normalise),
+                   "fp32_add + 24 MUX2, a plane");
+}
+
 std::vector<AreaPart> pair_area(const sim::Config::Rtu::Pair& pair) {
     const auto mode = std::uint32_t(pair.mode);
     const std::string first_pass = fmt::format("pair_reject:Mode={}", mode);
@@ -256,6 +265,9 @@ GateCounts free_slots_area(std::uint32_t slots) {
 
 std::vector<AreaPart> rtu_area(const sim::Config& config) {
     std::vector<AreaPart> parts = box_area(config.rtu.box.boxes_per_cycle, config.bvh.width);
+    if (config.bvh.node_format == model::NodeFormat::Quantised) {
+        parts.push_back(dequantiser_area(config.rtu.box.boxes_per_cycle));
+    }
     for (AreaPart& part : pair_area(config.rtu.pair)) parts.push_back(std::move(part));
     add_scheduler(config, parts);
     add_queues(config, parts);

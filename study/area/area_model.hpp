@@ -37,6 +37,10 @@ struct AreaTotal {
 /// A box unit of `lanes` for nodes of `width` children.
 [[nodiscard]] std::vector<AreaPart> box_area(std::uint32_t lanes, std::uint32_t width);
 
+/// What makes binary32 planes of quantised ones, for each of the 6 planes of a lane: an adder, and what
+/// normalises 8 bits. Assumed, not synthesised.
+[[nodiscard]] AreaPart dequantiser_area(std::uint32_t lanes);
+
 /// What one more child adds to a box tester, and what its lanes share: of a tester of W children, without
 /// near_to_far. From the counts of 2 and 8 children.
 [[nodiscard]] GateCounts box_lane_area();

@@ -86,7 +86,7 @@ double unloaded_cycles(const sim::Config& config, const ProfileBlock& block) {
     // Of every visit: three channels, for request, data and result.
     const double both = config.l1.latency_cycles + config.rtu.scheduler.latency_cycles + 3.0;
     const double to_hit_unit = config.rtu.pair.hit_units > 0 ? 2 : 0;
-    return 1 + work.node_visits * (both + config.rtu.box.latency_cycles) +
+    return 1 + work.node_visits * (both + box_latency_cycles(config)) +
            work.leaf_visits * (both + config.rtu.pair.latency_cycles) + work.survivor_pairs * to_hit_unit +
            hit_unit_cycles(config, work) + block.l1_misses_per_ray * l2_cycles(config) +
            (block.l2_misses_per_ray + block.first_touches_per_ray) * dram_cycles(config);

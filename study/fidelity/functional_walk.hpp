@@ -52,7 +52,7 @@ class FunctionalWalk {
     [[nodiscard]] std::uint32_t size_bytes(const model::MemoryImage& image) const {
         const model::NodeRef ref = traversal_.current.ref;
         return ref.is_leaf() ? ref.pair_count() * model::image_block_bytes
-                             : std::uint32_t(model::MemoryImage::node_bytes(image.width));
+                             : std::uint32_t(image.node_bytes());
     }
     /// Visits the node or leaf that the ray is at; false: that was the last one.
     [[nodiscard]] bool step(const model::MemoryImage& image) {
@@ -64,7 +64,7 @@ class FunctionalWalk {
             }
         } else {
             work_.node_visits += 1;
-            work_.box_tests += visit_node(traversal_, image);
+            work_.box_tests += visit_node(traversal_, image).box_tests;
         }
         return !is_satisfied(traversal_) && pop(traversal_);
     }

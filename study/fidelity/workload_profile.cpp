@@ -214,7 +214,7 @@ class Profiler {
         OnItsWay& found = on_their_way_[line];
         if (now_ >= found.until || ++found.accesses <= config_.l1.targets_per_mshr) return;
         // What is under way behind the L1 goes on for a while.
-        const double slack = config_.l1.latency_cycles + config_.rtu.box.latency_cycles;
+        const double slack = config_.l1.latency_cycles + box_latency_cycles(config_);
         const double held_up = std::max(0.0, double(found.until - now_) - slack);
         (found.is_first_touch ? counts.held_up_by_first_touches_per_ray : counts.held_up_cycles_per_ray) +=
             config_.rtu.count * held_up;

@@ -43,7 +43,7 @@ void PairingBench::turn(const RotationDegrees& rotation) {
 const BuiltScene& PairingBench::build(model::PairingMethod method, const PairingSetting& setting) {
     turn(setting.rotation);
     const sim::Config::Bvh& bvh = setting.config.bvh;
-    const TreeKey key{to_string(method), setting.rotation, bvh.width, bvh.max_leaf_pairs};
+    const TreeKey key{to_string(method), setting.rotation, bvh.width, bvh.max_leaf_pairs, bvh.node_format};
     if (built_ && key == built_key_) return *built_;
     tell(fmt::format("{}: pairing and building the tree", to_string(method)));
     built_.reset();  // before the next one takes its memory
@@ -63,7 +63,7 @@ const BuiltScene& PairingBench::build(model::PairingMethod method, const Pairing
 const PairingBench::TreeFacts& PairingBench::tree_facts(model::PairingMethod method,
                                                         const PairingSetting& setting) {
     const sim::Config::Bvh& bvh = setting.config.bvh;
-    const TreeKey key{to_string(method), setting.rotation, bvh.width, bvh.max_leaf_pairs};
+    const TreeKey key{to_string(method), setting.rotation, bvh.width, bvh.max_leaf_pairs, bvh.node_format};
     if (!tree_facts_.contains(key)) build(method, setting);
     return tree_facts_.at(key);
 }
@@ -81,7 +81,8 @@ const model::Workload& PairingBench::rays(model::WorkloadKind kind, const model:
 const WorkloadReport& PairingBench::simulated(model::PairingMethod method, const PairingSetting& setting,
                                               model::WorkloadKind kind) {
     const sim::Config& config = setting.config;
-    const RunKey key{{to_string(method), setting.rotation, config.bvh.width, config.bvh.max_leaf_pairs},
+    const RunKey key{{to_string(method), setting.rotation, config.bvh.width, config.bvh.max_leaf_pairs,
+                      config.bvh.node_format},
                      kind,
                      config_text(config)};
     const auto found = reports_.find(key);

@@ -39,7 +39,7 @@ class PairingBench {
     [[nodiscard]] const ChosenCamera& camera() const { return camera_; }
 
   private:
-    using TreeKey = std::tuple<std::string, RotationDegrees, std::uint32_t, std::uint32_t>;
+    using TreeKey = std::tuple<std::string, RotationDegrees, std::uint32_t, std::uint32_t, model::NodeFormat>;
     using RunKey = std::tuple<TreeKey, model::WorkloadKind, std::string>;
     using TreeFacts = std::pair<PairingFacts, BvhFacts>;
 

@@ -105,6 +105,8 @@ Json inputs(const SceneReport& report) {
               {"seconds", report.pairing.seconds}}},
             {"bvh",
              {{"width", report.bvh.width},
+              {"node_format", report.bvh.node_format},
+              {"node_bytes", report.bvh.node_bytes},
               {"node_count", report.bvh.node_count},
               {"leaf_count", report.bvh.leaf_count},
               {"image_bytes", report.bvh.image_bytes},

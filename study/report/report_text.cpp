@@ -38,7 +38,8 @@ std::string facts(const SceneReport& report) {
                                 pairing.method, pairing.edge_identity, fixed(pairing.paired_percent, 2),
                                 grouped(pairing.pair_count), grouped(pairing.single_count)));
     const BvhFacts& bvh = report.bvh;
-    line("BVH", fmt::format("{} wide, {} nodes, {} leaves, {} in memory", bvh.width, grouped(bvh.node_count),
+    line("BVH", fmt::format("{} wide, {} {}nodes, {} leaves, {} in memory", bvh.width,
+                            grouped(bvh.node_count), bvh.node_format == "full" ? "" : bvh.node_format + " ",
                             grouped(bvh.leaf_count), byte_size(bvh.image_bytes)));
     return out;
 }

@@ -34,6 +34,8 @@ struct PairingFacts {
 /// The tree in the machine's memory. `build_seconds` is host time.
 struct BvhFacts {
     std::uint32_t width = 0;
+    std::string node_format;
+    std::uint64_t node_bytes = 0;
     std::uint64_t node_count = 0;
     std::uint64_t leaf_count = 0;
     std::uint64_t image_bytes = 0;

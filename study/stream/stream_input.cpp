@@ -17,7 +17,7 @@ constexpr std::uint32_t ray_purpose = 18, pair_purpose = 19;
 constexpr model::Resolution picture{256, 256};
 
 const model::LeafPair& leaf_pair(const model::MemoryImage& image, std::size_t index) {
-    const std::uint64_t leaves = image.node_count * model::MemoryImage::node_bytes(image.width);
+    const std::uint64_t leaves = image.node_count * image.node_bytes();
     return image.leaf_pair(model::NodeRef::leaf(leaves + index * model::image_block_bytes, 1), 0);
 }
 

@@ -55,7 +55,8 @@ SweepPoint make_point(const SweepPlan& plan, std::size_t scene, std::size_t desi
     return {fingerprint_of({program, where.hash, where.rays, "cycle", what.id}),
             fingerprint_of({program, where.hash, where.rays, to_string(what.pairing),
                             std::string(model::to_string(plan.file.edge_identity)),
-                            fmt::format("{} {}", what.config.bvh.width, what.config.bvh.max_leaf_pairs)}),
+                            fmt::format("{} {} {}", what.config.bvh.width, what.config.bvh.max_leaf_pairs,
+                                        to_string(what.config.bvh.node_format))}),
             design, scene};
 }
 

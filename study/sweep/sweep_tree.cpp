@@ -75,6 +75,7 @@ void prepare_tree(const RunOptions& options, const SceneSource& source, const fs
     const Json facts{{"trace", is_recorded ? trace.string() : trace.filename().string()},
                      {"visit_bytes", visit_bytes},
                      {"width", image.width},
+                     {"node_format", std::uint32_t(image.format)},
                      {"depth", image.depth},
                      {"size_bytes", image.size_bytes()},
                      {"node_count", image.node_count},
@@ -94,6 +95,7 @@ std::uint64_t tree_memory_bytes(const fs::path& folder, const std::string& name)
 SweepTree::SweepTree(const fs::path& folder, const std::string& name) {
     const Json facts = read_facts(folder, name);
     image_.width = facts.at("width");
+    image_.format = model::NodeFormat(facts.at("node_format").get<std::uint32_t>());
     image_.depth = facts.at("depth");
     image_.node_count = facts.at("node_count");
     image_.leaf_count = facts.at("leaf_count");

@@ -19,8 +19,8 @@ TEST_P(Shape, IsValidOnEveryKindOfMesh) {
           test::closed_box(5, {0, 0, 0}, {1, 2, 3}), test::triangle_soup(1, 2), test::triangle_soup(2, 3)}) {
         const MemoryImage image = image_of(mesh, GetParam());
         EXPECT_NO_THROW(validate(image, mesh));
-        EXPECT_EQ(image.size_bytes(), image.node_count * MemoryImage::node_bytes(image.width) +
-                                          image.pair_count * image_block_bytes);
+        EXPECT_EQ(image.size_bytes(),
+                  image.node_count * image.node_bytes() + image.pair_count * image_block_bytes);
         EXPECT_LE(image.leaf_count, image.pair_count);
         EXPECT_GE(image.leaf_count * GetParam().max_leaf_pairs, image.pair_count);
     }

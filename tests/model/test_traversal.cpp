@@ -22,7 +22,7 @@ Ray ray_between(Vec3 from, Vec3 to, float t_max = infinity) { return {from, 0, t
 std::optional<Hit> brute_force(const MemoryImage& image, const Ray& ray) {
     const RaySetup setup = make_ray_setup(ray, image.bounds);
     std::optional<Hit> best;
-    const std::uint64_t first = image.node_count * MemoryImage::node_bytes(image.width);
+    const std::uint64_t first = image.node_count * image.node_bytes();
     for (std::uint64_t i = 0; i < image.pair_count; ++i) {
         const LeafPair& pair = image.leaf_pair(NodeRef::leaf(first + i * image_block_bytes, 1), 0);
         const PairHits found = test_pair(pair, setup);

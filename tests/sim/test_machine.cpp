@@ -133,7 +133,8 @@ class RecordedSupply final : public RaySupply {
 };
 
 TEST_P(Machine, ReplaysRecordedTraversalsWithTheSameHitsCyclesAndCounters) {
-    for (const model::BvhOptions options : {model::BvhOptions{4, 1}, {2, 1}, {8, 3}}) {
+    for (const model::BvhOptions options :
+         {model::BvhOptions{4, 1}, {2, 1}, {8, 3}, {6, 1, model::NodeFormat::Quantised}}) {
         const auto image = test::image_of(test::triangle_soup(800, 3, 0.15F), options);
         auto rays = test::rays_into_unit_cube(1100, 4);
         rays[17].direction = {0, 0, 0};  // cannot hit anything, and is not traversed

@@ -9,7 +9,7 @@ namespace rtu::test {
 inline study::PairingRun example_pairing_run(const std::string& method, std::uint64_t scale) {
     study::PairingRun run;
     run.pairing = {method, "position", 50.0 + double(scale), 100, 20, 0.5 * double(scale)};
-    run.bvh = {4, 10, 20, 1000 * scale, 0.25 * double(scale)};
+    run.bvh = {4, "full", 128, 10, 20, 1000 * scale, 0.25 * double(scale)};
     run.clock_mhz = 1000;
     run.total.ray_count = 600;
     run.total.hit_count = 300;

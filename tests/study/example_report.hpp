@@ -16,7 +16,7 @@ inline study::SceneReport example_report(const std::string& name = "bunny") {
     report.camera_source = "automatic";
     report.scene = {name, 69630, 34817, 12};
     report.pairing = {"window:2", "position", 65.69, 22870, 23890, 0.0082};
-    report.bvh = {4, 17974, 46760, 5293312, 0.1063};
+    report.bvh = {4, "full", 128, 17974, 46760, 5293312, 0.1063};
     report.clock_mhz = 1500;
     report.config = {{"clock_mhz", std::uint64_t{1500}}, {"rtu.pair.mode", std::string("dual_shared")}};
 

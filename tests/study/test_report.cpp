@@ -114,8 +114,8 @@ TEST(JsonReport, HasTheDocumentedKeys) {
                 ElementsAre("name", "triangle_count", "vertex_count", "degenerate_count"));
     EXPECT_THAT(keys(json["pairing"]), ElementsAre("method", "edge_identity", "paired_percent", "pair_count",
                                                    "single_count", "seconds"));
-    EXPECT_THAT(keys(json["bvh"]),
-                ElementsAre("width", "node_count", "leaf_count", "image_bytes", "build_seconds"));
+    EXPECT_THAT(keys(json["bvh"]), ElementsAre("width", "node_format", "node_bytes", "node_count",
+                                               "leaf_count", "image_bytes", "build_seconds"));
     EXPECT_THAT(keys(json["config"]), ElementsAre("clock_mhz", "rtu.pair.mode"));
     EXPECT_THAT(keys(json["workloads"][0]),
                 ElementsAre("name", "ray_count", "hit_count", "box_tests", "node_visits", "pair_tests",

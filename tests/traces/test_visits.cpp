@@ -51,7 +51,8 @@ model::TraversalCounts replay(const std::shared_ptr<const VisitChunk>& chunk, st
 }
 
 TEST(Visits, ReplayToTheCountsAndHitsOfTheTraversal) {
-    for (const model::BvhOptions options : {model::BvhOptions{2, 1}, {4, 1}, {6, 2}, {8, 8}}) {
+    for (const model::BvhOptions options :
+         {model::BvhOptions{2, 1}, {4, 1}, {6, 2}, {8, 8}, {6, 2, model::NodeFormat::Quantised}}) {
         const auto image = image_of(triangle_soup(500, 3, 0.15F), options);
         for (const RayKind kind : {RayKind::ClosestHit, RayKind::AnyHit}) {
             const auto chunk = std::make_shared<const VisitChunk>(
@@ -96,6 +97,8 @@ TEST(Visits, ImpossibleTraversalsAreRefused) {
     EXPECT_THAT(fault([&](auto& c) { c.visits[inner].dropped_entries = ~0U; }), HasSubstr("not pushed"));
     EXPECT_THAT(fault([&](auto& c) { c.visits[inner].pushes = 9; }), HasSubstr("count of boxes"));
     EXPECT_THAT(fault([&](auto& c) { c.visits[inner].tests = 0; }), HasSubstr("count of boxes"));
+    EXPECT_THAT(fault([&](auto& c) { c.visits[inner].extra_hits = 1; }), HasSubstr("count of boxes"));
+    EXPECT_THAT(fault([&](auto& c) { c.visits[leaf].extra_hits = 1; }), HasSubstr("pushes after a leaf"));
     EXPECT_THAT(fault([&](auto& c) { c.visits[leaf].tests = 0; }), HasSubstr("count of pair tests"));
     EXPECT_THAT(fault([&](auto& c) { c.visits[leaf].pushes = 1; }), HasSubstr("pushes after a leaf"));
     EXPECT_THAT(fault([&](auto& c) { c.pair_tests[0].triangle_tests = 3; }), HasSubstr("1 or 2 triangles"));
@@ -120,6 +123,25 @@ TEST(Visits, WithoutOutcomesAreRefused) {
     const std::size_t variant = payload.find('\1', 32);
     payload[variant] = 0;
     EXPECT_THAT(decode(), testing::HasSubstr("record them again"));
+}
+
+TEST(Visits, KeepTheHitsOfQuantisedBoxesOnly) {
+    const auto image = image_of(triangle_soup(300, 5, 0.2F), {4, 1, model::NodeFormat::Quantised});
+    const auto facts = traces::image_facts(image);
+    const VisitChunk written = example(RayKind::ClosestHit, image, 400);
+    const VisitChunk read = traces::decode_visit_chunk(encode(written), facts);
+    ASSERT_EQ(read.visits.size(), written.visits.size());
+    std::uint32_t extra = 0;
+    for (std::size_t i = 0; i < read.visits.size(); ++i) {
+        ASSERT_EQ(read.visits[i].extra_hits, written.visits[i].extra_hits);
+        extra += read.visits[i].extra_hits;
+    }
+    EXPECT_GT(extra, 10U);
+    VisitChunk bad = written;
+    for (traces::Visit& visit : bad.visits) visit.extra_hits = visit.pushes;
+    EXPECT_EQ(error_of([&] { static_cast<void>(traces::decode_visit_chunk(encode(bad), facts)); }), "");
+    for (traces::Visit& visit : bad.visits) ++visit.extra_hits;
+    EXPECT_NE(error_of([&] { static_cast<void>(traces::decode_visit_chunk(encode(bad), facts)); }), "");
 }
 
 TEST(Visits, ManyRaysAreSplitIntoChunks) {
