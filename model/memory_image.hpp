@@ -4,7 +4,9 @@
 //
 //   address 0                    nodes, in depth-first order (a node, then the subtrees of its children in
 //                                child order); the root is the node at address 0
-//   node_count * node_bytes      leaves, 64 bytes a pair, in the order in which the same walk meets them
+//   node_count * node_bytes      leaves, 64 bytes a pair, in the order in which the same walk first meets
+//   them;
+//                                with spatial splits several nodes may refer to one leaf
 //
 // Quantised inner nodes, and their order, are in quantised_node.hpp; this is the full format.
 // Inner node of a W-wide tree (binary32 structure of arrays; 64, 128, 192, 256 bytes for W = 2, 4, 6, 8):
@@ -126,8 +128,9 @@ struct MemoryImage {
     NodeFormat format = NodeFormat::Full;
     std::uint32_t depth = 0;  ///< inner nodes on the longest path from the root
     std::uint64_t node_count = 0;
-    std::uint64_t leaf_count = 0;
-    std::uint64_t pair_count = 0;  ///< pairs and lone triangles in all leaves
+    std::uint64_t leaf_count = 0;       ///< children of nodes that are leaves
+    std::uint64_t pair_count = 0;       ///< pairs and lone triangles that are stored
+    std::uint64_t reference_count = 0;  ///< pairs of all leaves; more than `pair_count` after spatial splits
 
     [[nodiscard]] static std::uint64_t node_bytes(std::uint32_t width, NodeFormat format) {
         const std::uint64_t used_bytes =
@@ -135,6 +138,8 @@ struct MemoryImage {
         return (used_bytes + image_block_bytes - 1) / image_block_bytes * image_block_bytes;
     }
     [[nodiscard]] std::uint64_t node_bytes() const { return node_bytes(width, format); }
+    /// Whether a ray may come to one pair twice.
+    [[nodiscard]] bool has_shared_pairs() const { return reference_count > pair_count; }
     [[nodiscard]] std::uint64_t size_bytes() const { return blocks.size() * image_block_bytes; }
     [[nodiscard]] NodeRef root() const { return NodeRef::inner(0); }
     template <std::uint32_t Width>
