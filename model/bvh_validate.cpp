@@ -74,8 +74,10 @@ class Validator {
     void check_quantised(NodeRef ref, const QuantisedNode<Width>& node, const Node<Width>& exact) const {
         const QuantisedNode<Width> expected = quantise(exact);
         RTU_CHECK(node.origin == expected.origin && node.exponent == expected.exponent &&
-                      node.child_count == expected.child_count && node.planes == expected.planes,
-                  "node at address {}: its boxes are not those of the exact node, quantised", ref.address());
+                      node.child_count == expected.child_count && node.planes == expected.planes &&
+                      node.first_node == expected.first_node && node.first_leaf == expected.first_leaf &&
+                      node.kinds == expected.kinds,
+                  "node at address {}: it is not the exact node, quantised", ref.address());
         for (std::uint32_t i = 0; i < exact.child_count; ++i) {
             RTU_CHECK(node.child(i) == exact.child[i], "node at address {}: child {} is another one",
                       ref.address(), i);

@@ -136,7 +136,7 @@ TEST_F(TimelineCommand, WritesWaveformsThatGtkwavesReadersRead) {
     if (std::system("command -v vcd2fst >/dev/null && command -v fst2vcd >/dev/null") != 0) {
         GTEST_SKIP() << "no vcd2fst and fst2vcd here: they come with gtkwave";
     }
-    const ProcessResult result = timeline({"--from", "300", "--cycles", "300", "--vcd", "t.vcd"});
+    const ProcessResult result = timeline({"--from", "300", "--cycles", "20000", "--vcd", "t.vcd"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string folder = folder_.path().string();
     const std::string convert =

@@ -24,6 +24,8 @@ struct Case {
     sim::Config config;
 };
 
+void PrintTo(const Case& machine, std::ostream* out) { *out << machine.name; }
+
 sim::Config three_rtus() {
     sim::Config config = test::tiny_machine();
     config.rtu.count = 3;
@@ -42,10 +44,12 @@ class TimelineOf : public testing::TestWithParam<Case> {
     Observed observe(const TimelineWindow& window, sim::ClockMode mode = sim::ClockMode::Fast) {
         TimelineRecorder recorder(window);
         sim::SpanSupply supply(rays_);
+        std::vector<std::optional<model::Hit>> hits;
         Observed observed;
         observed.result = sim::simulate_observed(
             GetParam().config, image_, supply, RayKind::ClosestHit,
-            [&](const auto& hit) { observed.result.hits.push_back(hit); }, recorder, mode);
+            [&](const auto& hit) { hits.push_back(hit); }, recorder, mode);
+        observed.result.hits = std::move(hits);
         observed.timeline = recorder.finish(observed.result.cycles);
         return observed;
     }
