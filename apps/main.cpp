@@ -17,6 +17,7 @@
 #include "apps/diff_command.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/fidelity_command.hpp"
+#include "apps/mailbox_command.hpp"
 #include "apps/methods_command.hpp"
 #include "apps/pairing_command.hpp"
 #include "apps/precision_command.hpp"
@@ -45,6 +46,7 @@ constexpr const char* footer =
     "  rtusim run --help                       all options of a run\n"
     "  rtusim trace --help                     record, replay and convert rays\n"
     "  rtusim pairing bunny.glb                what triangle pairing does to the hardware\n"
+    "  rtusim mailbox sponza.glb               spatial splits, and mailboxes against their duplicates\n"
     "  rtusim fidelity bunny.glb               how far off faster ways of telling MRPS are\n"
     "  rtusim methods                          how fast each ray-triangle test is on this host\n"
     "  rtusim stability                        where ray-triangle methods fail, against exact arithmetic\n"
@@ -108,6 +110,7 @@ int run_cli(int argc, char** argv) {
     add_trace_command(app, command);
     add_pairing_command(app, command);
     add_fidelity_command(app, command);
+    add_mailbox_command(app, command);
     add_methods_command(app, command);
     add_stability_command(app, command);
     add_precision_command(app, command);

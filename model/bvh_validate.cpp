@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "model/bvh.hpp"
+#include "model/bvh_coverage.hpp"
 #include "model/error.hpp"
 
 namespace rtu::model {
@@ -24,12 +27,16 @@ class Validator {
 
     void run() {
         check_node(image_.root(), image_.bounds);
+        check_shared_pairs();
         for (std::size_t i = 0; i < is_seen_.size(); ++i) {
             RTU_CHECK(is_seen_[i], "triangle {} is in no leaf", i);
         }
-        RTU_CHECK(nodes_ == image_.node_count && pairs_ == image_.pair_count,
-                  "the image holds {} nodes and {} pairs, the tree reaches {} and {}", image_.node_count,
-                  image_.pair_count, nodes_, pairs_);
+        RTU_CHECK(nodes_ == image_.node_count && pairs_ == image_.pair_count &&
+                      references_ == image_.reference_count && leaves_ == image_.leaf_count,
+                  "the image holds {} nodes, {} pairs, {} references and {} leaves, the tree reaches {}, {}, "
+                  "{} and {}",
+                  image_.node_count, image_.pair_count, image_.reference_count, image_.leaf_count, nodes_,
+                  pairs_, references_, leaves_);
     }
 
   private:
@@ -62,16 +69,48 @@ class Validator {
 
     void check_leaf(NodeRef ref, const Aabb& box) {
         check_address(ref, ref.pair_count() * image_block_bytes);
-        Aabb whole;
-        for (std::uint32_t i = 0; i < ref.pair_count(); ++i) {
-            const LeafPair& pair = image_.leaf_pair(ref, i);
-            ++pairs_;
-            for (std::uint32_t triangle = 0; triangle < (pair.has_second() ? 2U : 1U); ++triangle) {
-                check_triangle(ref, pair, triangle);
-            }
-            for (const Vec3& v : pair.vertices) whole.extend(v);
+        ++leaves_;
+        references_ += ref.pair_count();
+        if (image_.has_shared_pairs()) {
+            RTU_CHECK(ref.pair_count() == 1, "leaf at address {}: {} pairs in a tree that shares pairs",
+                      ref.address(), ref.pair_count());
+            shares_.emplace_back(ref.address(), box);
+            return;
         }
+        Aabb whole;
+        for (std::uint32_t i = 0; i < ref.pair_count(); ++i) whole.extend(check_pair(ref, i));
         RTU_CHECK(whole == box, "leaf at address {}: its box is not that of its vertices", ref.address());
+    }
+
+    // Returns the box of its vertices.
+    Aabb check_pair(NodeRef ref, std::uint32_t index) {
+        const LeafPair& pair = image_.leaf_pair(ref, index);
+        ++pairs_;
+        for (std::uint32_t triangle = 0; triangle < (pair.has_second() ? 2U : 1U); ++triangle) {
+            check_triangle(ref, pair, triangle);
+        }
+        Aabb box;
+        for (const Vec3& v : pair.vertices) box.extend(v);
+        return box;
+    }
+
+    // All leaves of a pair together.
+    void check_shared_pairs() {
+        std::ranges::stable_sort(shares_, {}, &std::pair<std::uint64_t, Aabb>::first);
+        for (auto first = shares_.begin(); first != shares_.end();) {
+            const NodeRef ref = NodeRef::leaf(first->first, 1);
+            std::vector<Aabb> boxes;
+            for (; first != shares_.end() && first->first == ref.address(); ++first) {
+                boxes.push_back(first->second);
+            }
+            const Aabb whole = check_pair(ref, 0);
+            RTU_CHECK(boxes.size() > 1 || boxes[0] == whole,
+                      "leaf at address {}: its box is not that of its vertices", ref.address());
+            RTU_CHECK(std::ranges::all_of(boxes, [&](const Aabb& box) { return whole.contains(box); }),
+                      "leaf at address {}: a box is larger than its pair", ref.address());
+            RTU_CHECK(is_covered(image_.leaf_pair(ref, 0), boxes),
+                      "leaf at address {}: its boxes do not cover its triangles", ref.address());
+        }
     }
 
     void check_triangle(NodeRef ref, const LeafPair& pair, std::uint32_t triangle) {
@@ -90,7 +129,8 @@ class Validator {
     const MemoryImage& image_;
     const TriangleMesh& mesh_;
     std::vector<bool> is_seen_;
-    std::uint64_t nodes_ = 0, pairs_ = 0;
+    std::vector<std::pair<std::uint64_t, Aabb>> shares_;  // address and box of each leaf, with spatial splits
+    std::uint64_t nodes_ = 0, pairs_ = 0, references_ = 0, leaves_ = 0;
 };
 
 }  // namespace

@@ -4,7 +4,9 @@
 //
 //   address 0                    nodes, in depth-first order (a node, then the subtrees of its children in
 //                                child order); the root is the node at address 0
-//   node_count * node_bytes      leaves, 64 bytes a pair, in the order in which the same walk meets them
+//   node_count * node_bytes      leaves, 64 bytes a pair, in the order in which the same walk first meets
+//   them;
+//                                with spatial splits several nodes may refer to one leaf
 //
 // Inner node of a W-wide tree (binary32 structure of arrays; 64, 128, 192, 256 bytes for W = 2, 4, 6, 8):
 //   float  lo_x[W], lo_y[W], lo_z[W], hi_x[W], hi_y[W], hi_z[W]   child boxes; unused: lo = +inf, hi = -inf
@@ -117,12 +119,15 @@ struct MemoryImage {
     std::uint32_t width = 4;
     std::uint32_t depth = 0;  ///< inner nodes on the longest path from the root
     std::uint64_t node_count = 0;
-    std::uint64_t leaf_count = 0;
-    std::uint64_t pair_count = 0;  ///< pairs and lone triangles in all leaves
+    std::uint64_t leaf_count = 0;       ///< children of nodes that are leaves
+    std::uint64_t pair_count = 0;       ///< pairs and lone triangles that are stored
+    std::uint64_t reference_count = 0;  ///< pairs of all leaves; more than `pair_count` after spatial splits
 
     [[nodiscard]] static std::uint64_t node_bytes(std::uint32_t width) {
         return (std::uint64_t(width) * 28 + 4 + 63) / 64 * 64;
     }
+    /// Whether a ray may come to one pair twice.
+    [[nodiscard]] bool has_shared_pairs() const { return reference_count > pair_count; }
     [[nodiscard]] std::uint64_t size_bytes() const { return blocks.size() * image_block_bytes; }
     [[nodiscard]] NodeRef root() const { return NodeRef::inner(0); }
     template <std::uint32_t Width>

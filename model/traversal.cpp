@@ -71,15 +71,18 @@ PairVisit update_closest(Closest& closest, const LeafPair& pair, const RaySetup&
 }
 
 // The whole traversal of one ray, with the tree's width known to the compiler and the ray's constants in
-// registers. The nearest child is visited next without passing through the stack.
-template <std::uint32_t Width>
+// registers. The nearest child is visited next without passing through the stack. `is_passed` is asked of
+// every leaf whether the ray goes on without it.
+template <std::uint32_t Width, class IsPassed>
 Closest run(const MemoryImage& image, const RaySetup& ray, RayKind kind, TraversalStack& stack,
-            TraversalCounts& counts) {
+            TraversalCounts& counts, IsPassed is_passed) {
     const SlabRay<slab_lanes<Width>> slab_ray(ray);
     Closest closest{Hit{.t = ray.t_max}};
     StackEntry current{image.root(), ray.t_min};
     while (true) {
-        if (current.ref.is_leaf()) {
+        if (current.ref.is_leaf() && is_passed(current.ref)) {
+            ++counts.mailbox_hits;
+        } else if (current.ref.is_leaf()) {
             for (std::uint32_t i = 0; i < current.ref.pair_count(); ++i) {
                 const PairVisit visit = update_closest(closest, image.leaf_pair(current.ref, i), ray);
                 counts.triangle_tests += visit.triangle_tests;
@@ -101,6 +104,22 @@ Closest run(const MemoryImage& image, const RaySetup& ray, RayKind kind, Travers
             current = stack.pop();
         } while (current.t_near > closest.hit.t);
     }
+}
+
+// Traces the ray past the leaves of which `is_passed` says so.
+template <class IsPassed>
+std::optional<Hit> trace_past(TraversalStack& stack, const MemoryImage& image, const Ray& ray, RayKind kind,
+                              TraversalCounts* counts, IsPassed is_passed) {
+    if (!can_hit(ray)) return std::nullopt;
+    stack.reset(stack_capacity(image));
+    TraversalCounts mine;
+    const RaySetup setup = make_ray_setup(ray, image.bounds);
+    const Closest closest = with_width(image, [&]<std::uint32_t Width>() {
+        return run<Width>(image, setup, kind, stack, mine,
+                          [&](NodeRef leaf) { return is_passed(leaf, mine); });
+    });
+    if (counts != nullptr) *counts += mine;
+    return closest.is_found ? std::optional(closest.hit) : std::nullopt;
 }
 
 }  // namespace
@@ -152,14 +171,17 @@ bool pop(Traversal& traversal, std::size_t floor) {
 
 std::optional<Hit> trace(TraversalStack& stack, const MemoryImage& image, const Ray& ray, RayKind kind,
                          TraversalCounts* counts) {
-    if (!can_hit(ray)) return std::nullopt;
-    stack.reset(stack_capacity(image));
-    TraversalCounts mine;
-    const RaySetup setup = make_ray_setup(ray, image.bounds);
-    const Closest closest =
-        with_width(image, [&]<std::uint32_t Width>() { return run<Width>(image, setup, kind, stack, mine); });
-    if (counts != nullptr) *counts += mine;
-    return closest.is_found ? std::optional(closest.hit) : std::nullopt;
+    return trace_past(stack, image, ray, kind, counts, [](NodeRef, TraversalCounts&) { return false; });
+}
+
+std::optional<Hit> trace(TraversalStack& stack, Mailbox& mailbox, const MemoryImage& image, const Ray& ray,
+                         RayKind kind, TraversalCounts* counts) {
+    mailbox.clear(image.has_shared_pairs());
+    return trace_past(stack, image, ray, kind, counts, [&](NodeRef leaf, TraversalCounts& mine) {
+        const MailboxAnswer answer = mailbox.look_up(leaf);
+        mine.duplicate_tests += answer == MailboxAnswer::Again ? 1 : 0;
+        return answer == MailboxAnswer::Known;
+    });
 }
 
 std::optional<Hit> trace(const MemoryImage& image, const Ray& ray, RayKind kind, TraversalCounts* counts) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/mailbox.hpp"
 #include "model/memory_image.hpp"
 #include "model/ray.hpp"
 #include "model/ray_setup.hpp"
@@ -16,11 +17,16 @@ struct TraversalCounts {
     std::uint64_t box_tests = 0;
     std::uint64_t pair_tests = 0;
     std::uint64_t triangle_tests = 0;
+    std::uint64_t mailbox_hits = 0;  ///< leaves that were passed over
+    std::uint64_t duplicate_tests =
+        0;  ///< of the pair tests, those of a pair that its ray had been tested with
     TraversalCounts& operator+=(const TraversalCounts& other) {
         node_visits += other.node_visits;
         box_tests += other.box_tests;
         pair_tests += other.pair_tests;
         triangle_tests += other.triangle_tests;
+        mailbox_hits += other.mailbox_hits;
+        duplicate_tests += other.duplicate_tests;
         return *this;
     }
     friend bool operator==(const TraversalCounts&, const TraversalCounts&) = default;
@@ -113,5 +119,10 @@ PairVisit visit_pair(Closest& closest, const LeafPair& pair, const RaySetup& ray
 /// The same, reusing a stack: for many rays on one thread.
 [[nodiscard]] std::optional<Hit> trace(TraversalStack& stack, const MemoryImage& image, const Ray& ray,
                                        RayKind kind, TraversalCounts* counts = nullptr);
+
+/// The same with a mailbox, which is cleared first; a mailbox that is off counts the duplicate tests. The hit
+/// is the same, to the bit.
+[[nodiscard]] std::optional<Hit> trace(TraversalStack& stack, Mailbox& mailbox, const MemoryImage& image,
+                                       const Ray& ray, RayKind kind, TraversalCounts* counts = nullptr);
 
 }  // namespace rtu::model

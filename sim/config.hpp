@@ -2,6 +2,9 @@
 
 #include <cstdint>
 
+#include "model/bvh.hpp"
+#include "model/mailbox.hpp"
+
 namespace rtu::sim {
 
 /// How the dual-triangle unit works through a pair.
@@ -17,6 +20,10 @@ enum class MemoryModel : std::uint8_t {
     Dram,  ///< the L2, which all RTUs share, and the DRAM
     Flat,  ///< no L2: memory of one latency and one bandwidth, as an RTL testbench has
 };
+
+/// The tree's splits, and a ray's memory of the pairs it was tested with: see model/.
+using model::MailboxKind;
+using model::SplitKind;
 
 /// Every hardware number of the machine. Meaning, unit, range and the default's source of each field are in
 /// one table (config_keys(), sim/config_keys.cpp); the names below are its keys.
@@ -45,6 +52,8 @@ struct Config {
     struct Bvh {
         std::uint32_t width = 4;
         std::uint32_t max_leaf_pairs = 1;
+        SplitKind splits = SplitKind::Object;
+        std::uint32_t split_budget_percent = 20;
     } bvh;
 
     struct Rtu {
@@ -53,6 +62,8 @@ struct Config {
         std::uint32_t stack_entries = 16;
         std::uint32_t results_per_cycle = 2;  ///< unit results that the scheduler takes a cycle
         std::uint32_t fetches_per_cycle = 2;  ///< requests that it sends to the L1 a cycle
+
+        model::MailboxOptions mailbox;  ///< of a ray
 
         struct Scheduler {
             std::uint32_t latency_cycles = 3;  ///< from taking a result to what follows from it

@@ -63,6 +63,12 @@ void validate(const EffectiveConfig& effective) {
     check_ranges(effective);
     const Config& config = effective.config;
     check_cache(effective, config.l1, "l1");
+    require(effective, config.bvh.splits == SplitKind::Object || config.bvh.max_leaf_pairs == 1,
+            "one pair a leaf where leaves share pairs", {"bvh.splits", "bvh.max_leaf_pairs"});
+    require(effective,
+            config.rtu.mailbox.kind != MailboxKind::Hashed || config.rtu.mailbox.entries == 0 ||
+                std::has_single_bit(config.rtu.mailbox.entries),
+            "a power of two places", {"rtu.mailbox.kind", "rtu.mailbox.entries"});
     if (config.memory.model == MemoryModel::Flat) return;  // there is no L2 and no DRAM to check
     check_cache(effective, config.l2, "l2");
     require(effective, config.l1.line_bytes <= config.l2.line_bytes,

@@ -52,6 +52,10 @@ const ConfigKey rows[] = {
      "[rayflex] and [prism] test 4 boxes a node", [](Config& c) -> Field { return &c.bvh.width; }},
     {"bvh.max_leaf_pairs", "pairs", "triangle pairs in a leaf", 1, 8, Form::Any,
      "[gen-rt] a quad leaf holds 1 pair", [](Config& c) -> Field { return &c.bvh.max_leaf_pairs; }},
+    {"bvh.splits", "", "how the builder divides a node's pairs: whole, or also cut by a plane", 0, 0,
+     Form::Any, "assumed: every pair in one leaf", [](Config& c) -> Field { return &c.bvh.splits; }},
+    {"bvh.split_budget_percent", "%", "leaves that spatial splits may add, of the pairs", 1, 1000, Form::Any,
+     "[Embree] replicates at most 1.2 times", [](Config& c) -> Field { return &c.bvh.split_budget_percent; }},
     {"rtu.count", "RTUs", "ray-tracing units that share L2 and DRAM", 1, 64, Form::Any,
      "assumed: one unit is what is studied", [](Config& c) -> Field { return &c.rtu.count; }},
     {"rtu.ray_slots", "rays", "rays in flight in an RTU", 1, 4096, Form::Any,
@@ -66,6 +70,12 @@ const ConfigKey rows[] = {
     {"rtu.fetches_per_cycle", "requests/cycle", "requests that the ray scheduler sends to its L1", 1, 64,
      Form::Any, "assumed: keeps the box unit and the pair unit fed together",
      [](Config& c) -> Field { return &c.rtu.fetches_per_cycle; }},
+    {"rtu.mailbox.kind", "", "where a ray keeps the pairs that it was tested with; per_pair is in memory", 0,
+     0, Form::Any, "[SSK07] the last pairs, compared at once",
+     [](Config& c) -> Field { return &c.rtu.mailbox.kind; }},
+    {"rtu.mailbox.entries", "entries", "pairs that a ray remembers on chip; 0: none. Not of per_pair", 0,
+     model::max_mailbox_entries, Form::Any, "assumed: without spatial splits there is nothing to find",
+     [](Config& c) -> Field { return &c.rtu.mailbox.entries; }},
     {"rtu.scheduler.latency_cycles", "cycles", "result taken to the next request, or the hit, of its ray", 0,
      1000, Form::Any, "[rtl] stack and best hit are read, compared, written: three stages",
      [](Config& c) -> Field { return &c.rtu.scheduler.latency_cycles; }},
@@ -170,6 +180,8 @@ const ConfigKey rows[] = {
 
 constexpr std::array<std::string_view, 3> mode_names{"single", "dual_independent", "dual_shared"};
 constexpr std::array<std::string_view, 2> memory_model_names{"dram", "flat"};
+constexpr std::array<std::string_view, 2> split_names{"object", "spatial"};
+constexpr std::array<std::string_view, 3> mailbox_names{"recent", "hashed", "per_pair"};
 
 /// Insertions, deletions and substitutions between two words (Levenshtein's distance).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -224,6 +236,8 @@ std::span<const std::string_view> pair_mode_names() { return mode_names; }
 std::span<const std::string_view> choice_names(const ConfigKey::Field& field) {
     if (std::holds_alternative<PairMode*>(field)) return mode_names;
     if (std::holds_alternative<MemoryModel*>(field)) return memory_model_names;
+    if (std::holds_alternative<SplitKind*>(field)) return split_names;
+    if (std::holds_alternative<MailboxKind*>(field)) return mailbox_names;
     return {};
 }
 
@@ -239,9 +253,8 @@ ConfigValue config_value(const Config& config, const ConfigKey& key) {
     Config copy = config;  // the table's accessors give places to write to
     const Field field = key.field(copy);
     if (const auto* number = std::get_if<std::uint32_t*>(&field)) return **number;
-    if (auto* const* model = std::get_if<MemoryModel*>(&field))
-        return memory_model_names[std::size_t(**model)];
-    return mode_names[std::size_t(*std::get<PairMode*>(field))];
+    const std::span<const std::string_view> names = choice_names(field);
+    return std::visit([&](auto* choice) { return names[std::size_t(*choice)]; }, field);
 }
 
 std::string config_value_text(const Config& config, const ConfigKey& key) {

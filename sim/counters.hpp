@@ -29,6 +29,29 @@ inline constexpr std::array scheduler_counter_rows = std::to_array<CounterRow<Sc
 });
 static_assert(has_row_for_every_field(scheduler_counter_rows));
 
+/// Of the scheduler, where the tree has spatial splits or the machine a mailbox.
+struct MailboxCounters {
+    std::uint64_t lookups = 0;
+    std::uint64_t hits = 0;
+    std::uint64_t duplicates = 0;
+    std::uint64_t bytes_saved = 0;
+    std::uint64_t bytes_read = 0;
+    std::uint64_t bytes_written = 0;
+    friend bool operator==(const MailboxCounters&, const MailboxCounters&) = default;
+};
+
+inline constexpr std::array mailbox_counter_rows = std::to_array<CounterRow<MailboxCounters>>({
+    {"mailbox_lookups", "leaves", "leaves that a mailbox was asked for", &MailboxCounters::lookups},
+    {"mailbox_hits", "leaves", "of them, neither fetched nor tested: their pair was known",
+     &MailboxCounters::hits},
+    {"duplicate_tests", "tests", "pair tests of a pair that its ray had been tested with before",
+     &MailboxCounters::duplicates},
+    {"mailbox_bytes_saved", "bytes", "of leaves that were not fetched", &MailboxCounters::bytes_saved},
+    {"mailbox_bytes_read", "bytes", "of a mailbox in memory, read", &MailboxCounters::bytes_read},
+    {"mailbox_bytes_written", "bytes", "of a mailbox in memory, written", &MailboxCounters::bytes_written},
+});
+static_assert(has_row_for_every_field(mailbox_counter_rows));
+
 struct BoxCounters {
     std::uint64_t node_visits = 0;
     std::uint64_t box_tests = 0;

@@ -120,8 +120,7 @@ EffectiveConfig assign(EffectiveConfig base, const ConfigAssignment& assignment)
         **number = checked_number(assignment, key);
     } else {
         const std::size_t choice = checked_choice(assignment, key, choice_names(field));
-        if (auto* const* model = std::get_if<MemoryModel*>(&field)) **model = MemoryModel(choice);
-        if (auto* const* mode = std::get_if<PairMode*>(&field)) **mode = PairMode(choice);
+        std::visit([&](auto* place) { *place = std::remove_pointer_t<decltype(place)>(choice); }, field);
     }
     const std::string& source = assignment.source.empty() ? assignment.place : assignment.source;
     base.origins[index] = {source, assignment.place};

@@ -26,6 +26,24 @@ model::StackRegion stack_region(const Config& config, const model::MemoryImage& 
     return region;
 }
 
+// The mailboxes in memory lie behind all stacks, those of an RTU behind those of the RTUs before it.
+MailboxRegion mailbox_region(const Config& config, const model::MemoryImage& image, std::uint32_t rtu) {
+    constexpr std::uint64_t page_bytes = 4096;
+    const auto in_whole = [](std::uint64_t value, std::uint64_t unit) {
+        return (value + unit - 1) / unit * unit;
+    };
+    const model::StackRegion stacks = stack_region(config, image, config.rtu.count);  // of none: their end
+    const std::uint64_t slot_bytes = in_whole(image.pair_count * mailbox_word_bytes, config.l1.line_bytes);
+    return {
+        in_whole(stacks.base_address, page_bytes) + std::uint64_t(rtu) * config.rtu.ray_slots * slot_bytes,
+        slot_bytes, image.node_count * model::MemoryImage::node_bytes(image.width)};
+}
+
+// What a scheduler's report has more where leaves are looked up.
+bool has_mailbox_counters(const Config& config) {
+    return config.bvh.splits == SplitKind::Spatial || config.rtu.mailbox.is_on();
+}
+
 // A transfer may take longer than anything within the machine.
 Cycle watchdog_cycles(const Config& config) {
     const std::uint64_t batch_bytes = std::uint64_t(config.link.batch_rays) * ray_bytes;
@@ -44,7 +62,8 @@ class Machine {
           sink_("hit_sink", domain_, on_hit, config.rtu.count),
           memory_(make_shared_memory(config, domain_)) {
         for (std::uint32_t i = 0; i < config.rtu.count; ++i) {
-            add_rtu(i, {image, kind, stack_region(config, image, i)}, std::as_bytes(std::span(image.blocks)));
+            add_rtu(i, {image, kind, stack_region(config, image, i), mailbox_region(config, image, i)},
+                    std::as_bytes(std::span(image.blocks)));
         }
         if (batches == nullptr) return;
         host_ = std::make_unique<LinkedHost>("host_side", domain_, config, *batches);
@@ -101,8 +120,9 @@ class Machine {
     }
 
     static model::TraversalCounts counts_of(const Rtu& rtu) {
-        return {rtu.box.counters().node_visits, rtu.box.counters().box_tests, rtu.pair.counters().pair_tests,
-                rtu.pair.counters().triangle_tests};
+        return {rtu.box.counters().node_visits,        rtu.box.counters().box_tests,
+                rtu.pair.counters().pair_tests,        rtu.pair.counters().triangle_tests,
+                rtu.scheduler.mailbox_counters().hits, rtu.scheduler.mailbox_counters().duplicates};
     }
 
     // An RTU, and its way to the shared memory and back.
@@ -139,6 +159,10 @@ class Machine {
             const std::string prefix = nodes_.size() > 1 ? std::string(rtu.name()) + "." : "";
             result.units.push_back({prefix + "scheduler", rtu.scheduler.cycle_account(),
                                     counter_values(scheduler_counter_rows, rtu.scheduler.counters())});
+            if (has_mailbox_counters(config_)) {
+                std::ranges::move(counter_values(mailbox_counter_rows, rtu.scheduler.mailbox_counters()),
+                                  std::back_inserter(result.units.back().counters));
+            }
             result.units.push_back({prefix + "box", rtu.box.cycle_account(),
                                     counter_values(box_counter_rows, rtu.box.counters())});
             result.units.push_back({prefix + "pair", rtu.pair.cycle_account(),

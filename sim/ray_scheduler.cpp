@@ -8,7 +8,7 @@ namespace rtu::sim {
 
 RayScheduler::RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu& config,
                            const model::MemoryImage& image, model::RayKind kind, RaySlots& slots,
-                           model::StackRegion region)
+                           model::StackRegion region, MailboxRegion mailboxes)
     : ClockedUnit(name, domain),
       config_(config),
       spill_block_(model::spill_block_size(config.stack_entries)),
@@ -18,12 +18,15 @@ RayScheduler::RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, co
       slots_(slots),
       region_(region),
       deciding_(config.scheduler.latency_cycles,
-                std::size_t(config.scheduler.latency_cycles + 1) * config.results_per_cycle) {
+                std::size_t(config.scheduler.latency_cycles + 1) * config.results_per_cycle),
+      mailboxes_(mailboxes),
+      mailbox_(config.mailbox),
+      looks_up_(mailbox_.is_on() || image.has_shared_pairs()) {
     for (auto slot = std::uint32_t(slots.size()); slot-- > 0;) free_slots_.push_back(slot);
 }
 
 Cycle RayScheduler::next_event(Cycle now) const {
-    return queued_.empty() ? std::max(now + 1, deciding_.ready_at()) : now + 1;
+    return queued_.empty() && passed_.empty() ? std::max(now + 1, deciding_.ready_at()) : now + 1;
 }
 
 std::string RayScheduler::describe() const {
@@ -36,16 +39,18 @@ void RayScheduler::check_drained() const {
     const SchedulerCounters& c = counters_;
     RTU_CHECK(c.rays_accepted == c.rays_finished, "{}: {} rays in, {} out", name(), c.rays_accepted,
               c.rays_finished);
-    RTU_CHECK(free_slots_.size() == slots_.size() && queued_.empty() && deciding_.is_empty(),
-              "{}: not drained: {}", name(), describe());
+    RTU_CHECK(
+        free_slots_.size() == slots_.size() && queued_.empty() && passed_.empty() && deciding_.is_empty(),
+        "{}: not drained: {}", name(), describe());
     RTU_CHECK(c.reloaded_entries == c.spilled_entries ||
                   (kind_ == model::RayKind::AnyHit && c.reloaded_entries < c.spilled_entries),
               "{}: {} stack entries spilled, {} read back", name(), c.spilled_entries, c.reloaded_entries);
 }
 
 bool RayScheduler::has_work(Cycle now) const {
-    return !queued_.empty() || box_results_in->can_pop(now) || pair_results_in->can_pop(now) ||
-           stack_blocks_in->can_pop(now) || (rays_in->can_pop(now) && !free_slots_.empty());
+    return !queued_.empty() || !passed_.empty() || box_results_in->can_pop(now) ||
+           pair_results_in->can_pop(now) || stack_blocks_in->can_pop(now) ||
+           (rays_in->can_pop(now) && !free_slots_.empty());
 }
 
 Activity RayScheduler::tick(Cycle now) {
@@ -59,6 +64,10 @@ Activity RayScheduler::tick(Cycle now) {
 
 bool RayScheduler::take(Cycle now) {
     std::uint32_t taken = 0;
+    for (; !passed_.empty() && taken < config_.results_per_cycle && can_take_more(now); ++taken) {
+        deciding_.push(now, {passed_.front()});
+        passed_.pop_front();
+    }
     // The one that is asked first changes whenever something was taken, so that none can starve.
     for (std::uint32_t i = 0; i < reply_channel_count; ++i) {
         const std::uint32_t source = (first_source_ + i) % reply_channel_count;
@@ -67,7 +76,7 @@ bool RayScheduler::take(Cycle now) {
             if (!result) break;
             deciding_.push(now, *result);
             ++taken;
-            if (result->is_stack_block) break;  // a wide word: one a cycle
+            if (result->is_from_memory) break;  // a wide word: one a cycle
         }
     }
     if (taken > 0) first_source_ = (first_source_ + 1) % reply_channel_count;
@@ -88,11 +97,13 @@ bool RayScheduler::decide(Cycle now) {
     if (!deciding_.is_ready(now)) return false;
     while (deciding_.is_ready(now)) {
         const Result result = deciding_.pop();
-        if (result.is_stack_block) {
-            slots_[result.slot].spilled -= spill_block_;
-            counters_.reloaded_entries += spill_block_;
+        if (!result.is_from_memory) {
+            advance(result.slot, now);
+        } else if (slots_[result.slot].waits_for_word) {
+            use_word(result.slot, now);
+        } else {
+            use_stack_block(result.slot, now);
         }
-        advance(result.slot, now);
     }
     return true;
 }
@@ -103,12 +114,57 @@ void RayScheduler::advance(std::uint32_t slot, Cycle now) {
     const bool is_satisfied = ray.walk.is_satisfied();
     if (!is_satisfied && ray.walk.pop(ray.spilled)) {
         while (ray.walk.stack_size() - ray.spilled > config_.stack_entries) queue_spill(slot);
-        queue_fetch(slot);
+        if (looks_up_ && ray.walk.current().is_leaf()) {
+            look_up(slot);
+        } else {
+            queue_fetch(slot);
+        }
     } else if (!is_satisfied && ray.spilled > 0) {
         queue_reload(slot);
     } else {
         finish(slot, now);
     }
+}
+
+void RayScheduler::use_stack_block(std::uint32_t slot, Cycle now) {
+    slots_[slot].spilled -= spill_block_;
+    counters_.reloaded_entries += spill_block_;
+    advance(slot, now);
+}
+
+// Asks the ray's mailbox for the leaf that it has come to.
+void RayScheduler::look_up(std::uint32_t slot) {
+    RaySlot& ray = slots_[slot];
+    const model::NodeRef leaf = ray.walk.current();
+    ray.answer = ray.walk.look_up();
+    mailbox_counters_.lookups += mailbox_.is_on() ? 1 : 0;
+    mailbox_counters_.duplicates += ray.answer == model::MailboxAnswer::Again ? leaf.pair_count() : 0;
+    if (mailbox_.kind == model::MailboxKind::PerPair) {
+        ray.waits_for_word = true;
+        queue_word(slot, false);
+    } else if (ray.answer == model::MailboxAnswer::Known) {
+        count_known(leaf);
+        passed_.push_back(slot);
+    } else {
+        queue_fetch(slot);
+    }
+}
+
+void RayScheduler::use_word(std::uint32_t slot, Cycle now) {
+    RaySlot& ray = slots_[slot];
+    ray.waits_for_word = false;
+    if (ray.answer == model::MailboxAnswer::Known) {
+        count_known(ray.walk.current());
+        advance(slot, now);
+    } else {
+        queue_word(slot, true);
+        queue_fetch(slot);
+    }
+}
+
+void RayScheduler::count_known(model::NodeRef leaf) {
+    ++mailbox_counters_.hits;
+    mailbox_counters_.bytes_saved += std::uint64_t(leaf.pair_count()) * model::image_block_bytes;
 }
 
 void RayScheduler::finish(std::uint32_t slot, Cycle now) {
@@ -142,6 +198,15 @@ void RayScheduler::queue_reload(std::uint32_t slot) {
     queued_.push_back(stack_request(slot, slots_[slot].spilled - spill_block_, false));
 }
 
+void RayScheduler::queue_word(std::uint32_t slot, bool is_write) {
+    queued_.push_back({.address = mailboxes_.word_address(slot, slots_[slot].walk.current()),
+                       .size_bytes = mailbox_word_bytes,
+                       .tag = slot,
+                       .source = std::uint8_t(ReplyTo::Scheduler),
+                       .is_write = is_write});
+    (is_write ? mailbox_counters_.bytes_written : mailbox_counters_.bytes_read) += mailbox_word_bytes;
+}
+
 MemoryRequest RayScheduler::stack_request(std::uint32_t slot, std::size_t first_entry, bool is_write) const {
     const std::size_t block = first_entry / spill_block_;
     return {.address = region_.base_address + slot * region_.slot_bytes + block * model::spill_block_bytes,
@@ -153,7 +218,7 @@ MemoryRequest RayScheduler::stack_request(std::uint32_t slot, std::size_t first_
 
 bool RayScheduler::issue(Cycle now) {
     std::uint32_t sent = 0;
-    bool has_written = false;  // stack blocks leave one a cycle
+    bool has_written = false;  // stack blocks and words of mailboxes leave one a cycle
     while (sent < config_.fetches_per_cycle && !queued_.empty() && requests_out->can_push(now)) {
         if (queued_.front().is_write && has_written) break;
         has_written |= queued_.front().is_write;
@@ -174,7 +239,7 @@ bool RayScheduler::accept(Cycle now) {
     ray.spilled = 0;
     ray.accepted_cycle = now;
     ++counters_.rays_accepted;
-    if (ray.walk.start(image_, message.ray, kind_)) {
+    if (ray.walk.start(image_, message.ray, kind_, mailbox_)) {
         queue_fetch(slot);
     } else {
         finish(slot, now);

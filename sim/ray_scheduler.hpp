@@ -13,6 +13,7 @@
 #include "sim/config.hpp"
 #include "sim/counters.hpp"
 #include "sim/fifo.hpp"
+#include "sim/mailbox_region.hpp"
 #include "sim/memory_message.hpp"
 #include "sim/pipeline.hpp"
 #include "sim/ray_slots.hpp"
@@ -32,11 +33,18 @@ inline constexpr std::uint32_t reply_channel_count = 3;
 /// requests leave in the order in which they were queued, one of them a write at most; then one new ray is
 /// accepted. When a stack outgrows `stack_entries`, its lowest block is written to memory ahead of the ray's
 /// next fetch; when the entries on chip run out, the last block written is read back.
+///
+/// Before a leaf is asked for, the ray's mailbox (model::Mailbox) is. One on chip answers within the
+/// decision; a ray whose leaf is known is decided on again as if it had been a result: it is taken, before
+/// the results of the units and as one of `results_per_cycle`, in the next cycle, so that each known leaf
+/// takes `scheduler.latency_cycles` + 1 cycles. The word of a mailbox in memory is read through the L1 and
+/// comes back as a stack block does; what is known then is popped in the same decision, and for what is not
+/// the word is written, ahead of the fetch.
 class RayScheduler final : public ClockedUnit {
   public:
     RayScheduler(sc_core::sc_module_name name, ClockDomain& domain, const Config::Rtu& config,
                  const model::MemoryImage& image, model::RayKind kind, RaySlots& slots,
-                 model::StackRegion region);
+                 model::StackRegion region, MailboxRegion mailboxes = {});
 
     sc_core::sc_port<Fifo<RayMessage>> rays_in{"rays_in"};
     sc_core::sc_port<Fifo<SlotToken>> box_results_in{"box_results_in"};
@@ -46,6 +54,7 @@ class RayScheduler final : public ClockedUnit {
     sc_core::sc_port<Fifo<HitMessage>> hits_out{"hits_out"};
 
     [[nodiscard]] const SchedulerCounters& counters() const { return counters_; }
+    [[nodiscard]] const MailboxCounters& mailbox_counters() const { return mailbox_counters_; }
     [[nodiscard]] Cycle next_event(Cycle now) const override;
     [[nodiscard]] std::string describe() const override;
     /// Throws std::logic_error unless every slot is free again and every spilled entry that its ray needed
@@ -60,7 +69,7 @@ class RayScheduler final : public ClockedUnit {
     /// A result that was taken.
     struct Result {
         std::uint32_t slot = 0;
-        bool is_stack_block = false;
+        bool is_from_memory = false;  ///< a stack block, or the word of a mailbox
     };
 
     bool take(Cycle now);
@@ -71,9 +80,14 @@ class RayScheduler final : public ClockedUnit {
     [[nodiscard]] bool can_take_more(Cycle now) const;
     void advance(std::uint32_t slot, Cycle now);
     void finish(std::uint32_t slot, Cycle now);
+    void look_up(std::uint32_t slot);
+    void use_word(std::uint32_t slot, Cycle now);
+    void use_stack_block(std::uint32_t slot, Cycle now);
+    void count_known(model::NodeRef leaf);
     void queue_fetch(std::uint32_t slot);
     void queue_spill(std::uint32_t slot);
     void queue_reload(std::uint32_t slot);
+    void queue_word(std::uint32_t slot, bool is_write);
     [[nodiscard]] MemoryRequest stack_request(std::uint32_t slot, std::size_t first_entry,
                                               bool is_write) const;
     [[nodiscard]] bool has_work(Cycle now) const;
@@ -87,9 +101,14 @@ class RayScheduler final : public ClockedUnit {
     model::StackRegion region_;
     std::vector<std::uint32_t> free_slots_;
     Pipeline<Result> deciding_;
-    std::deque<MemoryRequest> queued_;  // a fetch a slot at most, and its spills
+    std::deque<MemoryRequest> queued_;  // a fetch a slot at most, and its writes
+    MailboxRegion mailboxes_;
+    model::MailboxOptions mailbox_;
+    bool looks_up_;                     // whether leaves are looked up, if only to count duplicates
+    std::deque<std::uint32_t> passed_;  // slots whose leaf was known: to be decided on again
     std::uint32_t first_source_ = 0;
     SchedulerCounters counters_;
+    MailboxCounters mailbox_counters_;
 };
 
 }  // namespace rtu::sim

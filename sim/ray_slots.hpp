@@ -33,7 +33,9 @@ struct SlotToken {
 struct RaySlot {
     RayWalk walk;
     std::uint32_t ray_index = 0;
-    std::size_t spilled = 0;  ///< lowest stack entries, that lie in memory
+    std::size_t spilled = 0;                                  ///< lowest stack entries, that lie in memory
+    bool waits_for_word = false;                              ///< of a mailbox in memory
+    model::MailboxAnswer answer = model::MailboxAnswer::New;  ///< that the word will give
     Cycle accepted_cycle = 0;
 };
 

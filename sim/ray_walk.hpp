@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "model/mailbox.hpp"
 #include "model/memory_image.hpp"
 #include "model/traversal.hpp"
 #include "sim/ray_supply.hpp"
@@ -15,9 +16,13 @@ namespace rtu::sim {
 /// no difference.
 class RayWalk {
   public:
-    /// Puts the ray at the root; false: it is not to be traversed. The image must outlive the walk.
-    [[nodiscard]] bool start(const model::MemoryImage& image, const SuppliedRay& ray, model::RayKind kind) {
+    /// Puts the ray at the root; false: it is not to be traversed. The image must outlive the walk. The ray's
+    /// mailbox is empty. A recorded walk has every visit of a ray without a mailbox, so it may have any.
+    [[nodiscard]] bool start(const model::MemoryImage& image, const SuppliedRay& ray, model::RayKind kind,
+                             const model::MailboxOptions& mailbox) {
         image_ = &image;
+        if (mailbox != mailbox_.options()) mailbox_ = model::Mailbox(mailbox);
+        mailbox_.clear(image.has_shared_pairs());
         is_recorded_ = ray.recorded.chunk != nullptr;
         return is_recorded_ ? recorded_.start(ray.recorded) : model::start(computed_, image, ray.ray, kind);
     }
@@ -42,6 +47,12 @@ class RayWalk {
     model::PairVisit visit_pair(std::uint32_t index) {
         return is_recorded_ ? recorded_.visit_pair() : model::visit_pair(computed_, *image_, index);
     }
+    /// Asks the mailbox for the current leaf; a known one is left, and pop() goes on from there.
+    [[nodiscard]] model::MailboxAnswer look_up() {
+        const model::MailboxAnswer answer = mailbox_.look_up(current());
+        if (is_recorded_ && answer == model::MailboxAnswer::Known) recorded_.skip_leaf();
+        return answer;
+    }
     /// As model::pop().
     [[nodiscard]] bool pop(std::size_t floor = 0) {
         return is_recorded_ ? recorded_.pop(floor) : model::pop(computed_, floor);
@@ -64,6 +75,7 @@ class RayWalk {
     bool is_recorded_ = false;
     model::Traversal computed_;
     traces::RecordedWalk recorded_;
+    model::Mailbox mailbox_;
 };
 
 }  // namespace rtu::sim

@@ -37,7 +37,7 @@ Rtu::Rtu(sc_core::sc_module_name name, ClockDomain& domain, const Config& config
                    depth_for(std::max(config.rtu.box.boxes_per_cycle, config.rtu.results_per_cycle)), domain),
       pair_results_("pair_results",
                     depth_for(std::max(config.rtu.pair.testers, config.rtu.results_per_cycle)), domain),
-      scheduler("scheduler", domain, config.rtu, job.image, job.kind, slots_, job.stacks),
+      scheduler("scheduler", domain, config.rtu, job.image, job.kind, slots_, job.stacks, job.mailboxes),
       box("box", domain, config.rtu.box, slots_),
       pair("pair", domain, config.rtu.pair, slots_),
       l1("l1", domain, config.l1, 1, reply_channel_count, std::uint8_t(index)) {

@@ -9,6 +9,7 @@
 #include "sim/cache.hpp"
 #include "sim/config.hpp"
 #include "sim/fifo.hpp"
+#include "sim/mailbox_region.hpp"
 #include "sim/memory_message.hpp"
 #include "sim/pair_unit.hpp"
 #include "sim/ray_scheduler.hpp"
@@ -21,6 +22,7 @@ struct RtuJob {
     const model::MemoryImage& image;
     model::RayKind kind;
     model::StackRegion stacks;
+    MailboxRegion mailboxes;
 };
 
 /// One ray-tracing unit: scheduler, box unit, dual-triangle unit, L1, and the channels between them.

@@ -22,10 +22,10 @@ bool is_same_answer(model::RayKind kind, const std::optional<model::Hit>& a,
 }  // namespace
 
 HitChecker::Verdict HitChecker::compare(const model::Ray& ray, model::RayKind kind,
-                                        const std::optional<model::Hit>& hit,
-                                        model::TraversalStack& scratch) const {
+                                        const std::optional<model::Hit>& hit, Scratch& scratch) const {
     Verdict verdict;
-    verdict.is_reference_equal = model::trace(scratch, image_, ray, kind, &verdict.counts) == hit;
+    verdict.is_reference_equal =
+        model::trace(scratch.stack, scratch.mailbox, image_, ray, kind, &verdict.counts) == hit;
     verdict.is_embree_equal = is_same_answer(kind, hit, embree_.trace(ray, kind));
     return verdict;
 }
@@ -33,7 +33,7 @@ HitChecker::Verdict HitChecker::compare(const model::Ray& ray, model::RayKind ki
 model::TraversalCounts HitChecker::check(const model::Workload& workload,
                                          std::span<const std::optional<model::Hit>> hits) {
     std::vector<Verdict> verdicts(hits.size());
-    tbb::enumerable_thread_specific<model::TraversalStack> scratch;
+    tbb::enumerable_thread_specific<Scratch> scratch(Scratch{{}, model::Mailbox(mailbox_)});
     model::for_each_range<std::size_t>(hits.size(), 1, [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             verdicts[i] = compare(workload.rays[i], workload.ray_kind, hits[i], scratch.local());

@@ -21,8 +21,10 @@ namespace rtu::study {
 /// exactly through an edge), find Embree wrong, or side with Embree: only that is a mismatch.
 class HitChecker {
   public:
-    HitChecker(const model::TriangleMesh& mesh, const model::MemoryImage& image)
-        : mesh_(mesh), image_(image), embree_(mesh) {}
+    /// `mailbox`: of the machine's rays; it changes counts, and must not change a hit.
+    HitChecker(const model::TriangleMesh& mesh, const model::MemoryImage& image,
+               model::MailboxOptions mailbox = {})
+        : mesh_(mesh), image_(image), mailbox_(mailbox), embree_(mesh) {}
 
     /// Compares the simulated hits [rays.size()] of a workload, on all cores, and adds to `report()`.
     /// Returns the reference traversal's counts.
@@ -32,17 +34,22 @@ class HitChecker {
     [[nodiscard]] const CheckReport& report() const { return report_; }
 
   private:
+    struct Scratch {
+        model::TraversalStack stack;
+        model::Mailbox mailbox;
+    };
     struct Verdict {
         bool is_reference_equal = true;
         bool is_embree_equal = true;
         model::TraversalCounts counts;
     };
     [[nodiscard]] Verdict compare(const model::Ray& ray, model::RayKind kind,
-                                  const std::optional<model::Hit>& hit, model::TraversalStack& scratch) const;
+                                  const std::optional<model::Hit>& hit, Scratch& scratch) const;
     void judge(const model::Ray& ray, model::RayKind kind, const std::optional<model::Hit>& hit);
 
     const model::TriangleMesh& mesh_;
     const model::MemoryImage& image_;
+    model::MailboxOptions mailbox_;
     EmbreeOracle embree_;
     CheckReport report_;
 };

@@ -27,8 +27,9 @@ SceneReport described(const RunOptions& options) {
 }
 
 std::string image_text(const SceneReport& report) {
-    return fmt::format("pairing {} by {}, tree {} wide", report.pairing.method, report.pairing.edge_identity,
-                       report.bvh.width);
+    const bool is_split = report.bvh.extra_leaf_count > 0;
+    return fmt::format("pairing {} by {}, tree {} wide{}", report.pairing.method,
+                       report.pairing.edge_identity, report.bvh.width, is_split ? ", spatial splits" : "");
 }
 
 // The header of the file of rays; one that says little for a file that is no trace.

@@ -80,7 +80,7 @@ SceneReport run_scene(const RunOptions& options, const SceneSource& source) {
     const model::MemoryImage& image = prepared->built.image;
 
     std::optional<HitChecker> checker;
-    if (options.is_checked) checker.emplace(mesh, image);
+    if (options.is_checked) checker.emplace(mesh, image, options.config.rtu.mailbox);
     WorkloadStream rays(make_chunk_source(options, *prepared));
     while (rays.next_workload()) run_workload(rays, image, options, checker ? &*checker : nullptr, scene);
     if (scene.workloads.empty()) throw Error("{}: expected rays, found none", options.rays->file.string());

@@ -51,9 +51,11 @@ BuiltScene build_scene(const model::TriangleMesh& mesh, model::PairingMethod met
                      pairing.paired_percent(), pairing.pair_count,
                      pairing.single_count,     pairing_watch.seconds()};
     const Stopwatch build_watch;
-    built.image = model::build_bvh(mesh, pairing, {bvh.width, bvh.max_leaf_pairs});
+    built.image = model::build_bvh(mesh, pairing,
+                                   {bvh.width, bvh.max_leaf_pairs, bvh.splits, bvh.split_budget_percent});
     const model::MemoryImage& image = built.image;
-    built.bvh = {image.width, image.node_count, image.leaf_count, image.size_bytes(), build_watch.seconds()};
+    built.bvh = {image.width,        image.node_count,      image.leaf_count,
+                 image.size_bytes(), build_watch.seconds(), image.reference_count - image.pair_count};
     model::validate(image, mesh);
     return built;
 }

@@ -44,6 +44,12 @@ class RecordedWalk {
         const PairTest test = *pair_test_++;
         return {test.triangle_tests, test.exact_tests, test.better_hits, test.side_tests};
     }
+    /// Leaves the current leaf without a test: what the ray's mailbox saves. Only of a pair tested before, a
+    /// test of which changed nothing when it was recorded.
+    void skip_leaf() {
+        pair_test_ += pair_tests_left_;
+        pair_tests_left_ = 0;
+    }
     /// As model::pop().
     [[nodiscard]] bool pop(std::size_t floor) {
         for (; stack_size_ > floor; --entries_to_drop_) {

@@ -9,7 +9,8 @@ namespace rtu::study {
 namespace {
 
 // Cells of nand2.lib.
-constexpr double mux2 = 2.33, flip_flop_enabled = 5.80, flip_flop_reset_enabled = 6.80;
+constexpr double mux2 = 2.33, xnor2 = 2, and2 = 1.33, flip_flop_enabled = 5.80,
+                 flip_flop_reset_enabled = 6.80;
 // Logic of a queue, fitted to stream_fifo: a bit of a pointer; a bit of the output for each entry but one,
 // and once.
 constexpr double pointer_step = 6, entry_select = 1.80, output_select = 0.53;
@@ -134,6 +135,31 @@ void add_lanes(const sim::Config& config, std::vector<AreaPart>& parts) {
                             "registers between stages, and their MUX2"));
 }
 
+constexpr std::uint32_t pair_number_bits = 28;  // of a NodeRef
+constexpr std::uint32_t ray_number_bits = 32;   // in a word of a mailbox in memory
+
+GateCounts comparator_area(double bits) { return logic(bits * (xnor2 + and2)); }
+
+// Of each result: the row of its ray is read, compared, and written back in one place.
+void add_mailbox(const sim::Config::Rtu& rtu, std::vector<AreaPart>& parts) {
+    const model::MailboxOptions& mailbox = rtu.mailbox;
+    if (!mailbox.is_on()) return;
+    const double entries = mailbox.entries;
+    double slot_bits = ray_number_bits;
+    GateCounts compare = comparator_area(ray_number_bits);
+    if (mailbox.kind == model::MailboxKind::Recent) {
+        slot_bits = entries * pair_number_bits + ceil_log2(mailbox.entries) + ceil_log2(mailbox.entries + 1);
+        compare = times(entries, comparator_area(pair_number_bits + 1));
+    } else if (mailbox.kind == model::MailboxKind::Hashed) {
+        slot_bits = entries * (pair_number_bits + 1);
+        compare = comparator_area(pair_number_bits + 1);
+        compare += logic((entries - 1) * (pair_number_bits + 1) * mux2);
+    }
+    parts.push_back(array("scheduler", "mailboxes", rtu.ray_slots, slot_bits, "docs/area.md"));
+    parts.push_back(
+        formula("scheduler", "mailbox comparison", rtu.results_per_cycle, compare, "XNOR2 and AND2 a bit"));
+}
+
 void add_scheduler(const sim::Config& config, std::vector<AreaPart>& parts) {
     const sim::Config::Rtu& rtu = config.rtu;
     const std::uint32_t slot_bits = ceil_log2(rtu.ray_slots);
@@ -143,6 +169,7 @@ void add_scheduler(const sim::Config& config, std::vector<AreaPart>& parts) {
     parts.push_back(array("scheduler", "stacks", rtu.ray_slots, stack_entry_bits * double(row_of(config)),
                           "64 (stack_entries + width - 1)"));
     add_lanes(config, parts);
+    add_mailbox(rtu, parts);
     parts.push_back(counted("scheduler", "choice of results", 1, "result_select"));
     parts.push_back(counted("scheduler", "issue of requests", 1, "order_issue"));
     parts.push_back(

@@ -56,6 +56,9 @@ LevelResult run_cycle(const sim::Config& config, const model::MemoryImage& image
 
 LevelResult run_level(FidelityLevel level, const sim::Config& config, const model::MemoryImage& image,
                       const RayPopulation& population, const SampledOptions& options) {
+    if (config.rtu.mailbox.is_on() && level != FidelityLevel::Cycle) {
+        throw Error("rtu.mailbox: a mailbox is simulated at fidelity cycle only");
+    }
     switch (level) {
         case FidelityLevel::Counts:
             return run_counts(config, image, population);

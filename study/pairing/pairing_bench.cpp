@@ -40,10 +40,16 @@ void PairingBench::turn(const RotationDegrees& rotation) {
     if (rotation != RotationDegrees{}) turned_ = rotated(scene_.mesh, study::rotation(rotation));
 }
 
+PairingBench::TreeKey PairingBench::tree_key(model::PairingMethod method, const PairingSetting& setting) {
+    const sim::Config::Bvh& bvh = setting.config.bvh;
+    return {to_string(method),  setting.rotation, bvh.width,
+            bvh.max_leaf_pairs, bvh.splits,       bvh.split_budget_percent};
+}
+
 const BuiltScene& PairingBench::build(model::PairingMethod method, const PairingSetting& setting) {
     turn(setting.rotation);
     const sim::Config::Bvh& bvh = setting.config.bvh;
-    const TreeKey key{to_string(method), setting.rotation, bvh.width, bvh.max_leaf_pairs};
+    const TreeKey key = tree_key(method, setting);
     if (built_ && key == built_key_) return *built_;
     tell(fmt::format("{}: pairing and building the tree", to_string(method)));
     built_.reset();  // before the next one takes its memory
@@ -62,8 +68,7 @@ const BuiltScene& PairingBench::build(model::PairingMethod method, const Pairing
 
 const PairingBench::TreeFacts& PairingBench::tree_facts(model::PairingMethod method,
                                                         const PairingSetting& setting) {
-    const sim::Config::Bvh& bvh = setting.config.bvh;
-    const TreeKey key{to_string(method), setting.rotation, bvh.width, bvh.max_leaf_pairs};
+    const TreeKey key = tree_key(method, setting);
     if (!tree_facts_.contains(key)) build(method, setting);
     return tree_facts_.at(key);
 }
@@ -81,9 +86,7 @@ const model::Workload& PairingBench::rays(model::WorkloadKind kind, const model:
 const WorkloadReport& PairingBench::simulated(model::PairingMethod method, const PairingSetting& setting,
                                               model::WorkloadKind kind) {
     const sim::Config& config = setting.config;
-    const RunKey key{{to_string(method), setting.rotation, config.bvh.width, config.bvh.max_leaf_pairs},
-                     kind,
-                     config_text(config)};
+    const RunKey key{tree_key(method, setting), kind, config_text(config)};
     const auto found = reports_.find(key);
     if (found != reports_.end()) return found->second;
     const model::MemoryImage& image = build(method, setting).image;

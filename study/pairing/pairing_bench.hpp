@@ -39,10 +39,12 @@ class PairingBench {
     [[nodiscard]] const ChosenCamera& camera() const { return camera_; }
 
   private:
-    using TreeKey = std::tuple<std::string, RotationDegrees, std::uint32_t, std::uint32_t>;
+    using TreeKey =
+        std::tuple<std::string, RotationDegrees, std::uint32_t, std::uint32_t, sim::SplitKind, std::uint32_t>;
     using RunKey = std::tuple<TreeKey, model::WorkloadKind, std::string>;
     using TreeFacts = std::pair<PairingFacts, BvhFacts>;
 
+    [[nodiscard]] static TreeKey tree_key(model::PairingMethod method, const PairingSetting& setting);
     void tell(const std::string& phase) const;
     [[nodiscard]] const model::TriangleMesh& mesh() const { return turned_ ? *turned_ : scene_.mesh; }
     void turn(const RotationDegrees& rotation);

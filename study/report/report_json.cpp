@@ -91,24 +91,26 @@ Json run(const SceneReport& report) {
 }
 
 Json inputs(const SceneReport& report) {
-    return {{"scene",
-             {{"name", report.scene.name},
-              {"triangle_count", report.scene.triangle_count},
-              {"vertex_count", report.scene.vertex_count},
-              {"degenerate_count", report.scene.degenerate_count}}},
-            {"pairing",
-             {{"method", report.pairing.method},
-              {"edge_identity", report.pairing.edge_identity},
-              {"paired_percent", report.pairing.paired_percent},
-              {"pair_count", report.pairing.pair_count},
-              {"single_count", report.pairing.single_count},
-              {"seconds", report.pairing.seconds}}},
-            {"bvh",
-             {{"width", report.bvh.width},
-              {"node_count", report.bvh.node_count},
-              {"leaf_count", report.bvh.leaf_count},
-              {"image_bytes", report.bvh.image_bytes},
-              {"build_seconds", report.bvh.build_seconds}}}};
+    Json all{{"scene",
+              {{"name", report.scene.name},
+               {"triangle_count", report.scene.triangle_count},
+               {"vertex_count", report.scene.vertex_count},
+               {"degenerate_count", report.scene.degenerate_count}}},
+             {"pairing",
+              {{"method", report.pairing.method},
+               {"edge_identity", report.pairing.edge_identity},
+               {"paired_percent", report.pairing.paired_percent},
+               {"pair_count", report.pairing.pair_count},
+               {"single_count", report.pairing.single_count},
+               {"seconds", report.pairing.seconds}}},
+             {"bvh",
+              {{"width", report.bvh.width},
+               {"node_count", report.bvh.node_count},
+               {"leaf_count", report.bvh.leaf_count},
+               {"image_bytes", report.bvh.image_bytes},
+               {"build_seconds", report.bvh.build_seconds}}}};
+    if (report.bvh.extra_leaf_count > 0) all["bvh"]["extra_leaf_count"] = report.bvh.extra_leaf_count;
+    return all;
 }
 
 Json json(const HostFacts& host) {

@@ -13,6 +13,12 @@ namespace {
 
 std::string text(model::Vec3 v) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x, v.y, v.z); }
 
+std::string extra_leaves(const BvhFacts& bvh) {
+    if (bvh.extra_leaf_count == 0) return {};
+    const double pairs = double(bvh.leaf_count - bvh.extra_leaf_count);
+    return fmt::format(" (+{} % by spatial splits)", fixed(100 * double(bvh.extra_leaf_count) / pairs, 1));
+}
+
 std::string facts(const SceneReport& report) {
     const auto& [name, triangle_count, vertex_count, degenerate_count] = report.scene;
     std::string out = fmt::format("{}\n{}\n", name, std::string(name.size(), '='));
@@ -38,8 +44,9 @@ std::string facts(const SceneReport& report) {
                                 pairing.method, pairing.edge_identity, fixed(pairing.paired_percent, 2),
                                 grouped(pairing.pair_count), grouped(pairing.single_count)));
     const BvhFacts& bvh = report.bvh;
-    line("BVH", fmt::format("{} wide, {} nodes, {} leaves, {} in memory", bvh.width, grouped(bvh.node_count),
-                            grouped(bvh.leaf_count), byte_size(bvh.image_bytes)));
+    line("BVH",
+         fmt::format("{} wide, {} nodes, {} leaves{}, {} in memory", bvh.width, grouped(bvh.node_count),
+                     grouped(bvh.leaf_count), extra_leaves(bvh), byte_size(bvh.image_bytes)));
     return out;
 }
 

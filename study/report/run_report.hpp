@@ -38,6 +38,7 @@ struct BvhFacts {
     std::uint64_t leaf_count = 0;
     std::uint64_t image_bytes = 0;
     double build_seconds = 0;
+    std::uint64_t extra_leaf_count = 0;  ///< of the leaves, those that spatial splits added
 };
 
 /// One key of the effective configuration, named as `--set` names it.

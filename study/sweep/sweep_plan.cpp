@@ -48,15 +48,23 @@ std::string fingerprint_of(const std::vector<std::string>& parts) {
     return model::hex_digits(model::fingerprint(fmt::format("{}", fmt::join(parts, "\n"))));
 }
 
+std::string tree_text(const sim::Config::Bvh& bvh) {
+    std::string text = fmt::format("{} {}", bvh.width, bvh.max_leaf_pairs);
+    if (bvh.splits == sim::SplitKind::Spatial) {
+        text += fmt::format(" spatial {}", bvh.split_budget_percent);
+    }
+    return text;
+}
+
 SweepPoint make_point(const SweepPlan& plan, std::size_t scene, std::size_t design) {
     const SweepScene& where = plan.scenes[scene];
     const SweepDesign& what = plan.designs[design];
     const std::string program(version());
-    return {fingerprint_of({program, where.hash, where.rays, "cycle", what.id}),
-            fingerprint_of({program, where.hash, where.rays, to_string(what.pairing),
-                            std::string(model::to_string(plan.file.edge_identity)),
-                            fmt::format("{} {}", what.config.bvh.width, what.config.bvh.max_leaf_pairs)}),
-            design, scene};
+    return {
+        fingerprint_of({program, where.hash, where.rays, "cycle", what.id}),
+        fingerprint_of({program, where.hash, where.rays, to_string(what.pairing),
+                        std::string(model::to_string(plan.file.edge_identity)), tree_text(what.config.bvh)}),
+        design, scene};
 }
 
 }  // namespace

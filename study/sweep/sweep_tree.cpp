@@ -80,6 +80,7 @@ void prepare_tree(const RunOptions& options, const SceneSource& source, const fs
                      {"node_count", image.node_count},
                      {"leaf_count", image.leaf_count},
                      {"pair_count", image.pair_count},
+                     {"reference_count", image.reference_count},
                      {"paired_percent", scene->report.pairing.paired_percent}};
     const OutputFile file{facts_path(folder, name),
                           facts.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"};
@@ -98,6 +99,7 @@ SweepTree::SweepTree(const fs::path& folder, const std::string& name) {
     image_.node_count = facts.at("node_count");
     image_.leaf_count = facts.at("leaf_count");
     image_.pair_count = facts.at("pair_count");
+    image_.reference_count = facts.at("reference_count");
     image_.blocks.resize(facts.at("size_bytes").get<std::size_t>() / model::image_block_bytes);
     paired_percent_ = facts.at("paired_percent");
     traces::TraceReader reader(folder / facts.at("trace").get<std::string>());

@@ -18,7 +18,8 @@ namespace rtu::model {
 
 /// How a test's name shows its parameter.
 inline void PrintTo(const BvhOptions& options, std::ostream* out) {
-    *out << options.width << " wide, " << options.max_leaf_pairs << " pairs a leaf";
+    *out << options.width << " wide, " << options.max_leaf_pairs << " pairs a leaf"
+         << (options.splits == SplitKind::Spatial ? ", spatial splits" : "");
 }
 
 }  // namespace rtu::model
@@ -48,6 +49,19 @@ inline TriangleMesh triangle_soup(std::uint32_t count, std::uint32_t seed, float
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vec3 centre = random.point(0, 1);
         for (int k = 0; k < 3; ++k) mesh.positions.push_back(centre + random.point(-size, size));
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return mesh;
+}
+
+/// Triangles as long as a cube of 2 about `centre` and as thin as a thousandth of it, at any angle: what
+/// spatial splits are for.
+inline TriangleMesh needles(std::uint32_t count, std::uint32_t seed, Vec3 centre) {
+    Random random(seed);
+    TriangleMesh mesh{"needles", {}, {}};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3 a = centre + random.point(-1, 1), b = centre + random.point(-1, 1);
+        for (const Vec3 p : {a, b, a + random.point(-1, 1) * 0.001F}) mesh.positions.push_back(p);
         mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     return mesh;
