@@ -10,7 +10,7 @@ module result_select #(
   input  logic [5:0] valid_i,   // two of each source: bit 2 * source + place
   input  logic [1:0] passed_valid_i,
   output logic [1:0] valid_o,   // lane 1 only beside lane 0
-  output logic [3:0] source_o,  // two bits a lane
+  output logic [3:0] source_o,  // two bits a lane; 3: a ray that passes a leaf over
   output logic [1:0] place_o,   // of a lane's result in its source
   output logic [5:0] pop_o,     // how many leave each source, two bits each
   output logic [1:0] passed_pop_o
@@ -25,7 +25,7 @@ module result_select #(
     logic [1:0] taken, source;
     taken = passing;
     source = first_q;
-    source_o = Passes ? {2{2'(rtu_pkg::FromPassed)}} : '0;
+    source_o = Passes ? '1 : '0;
     place_o = Passes ? 2'b10 : '0;
     pop_o = '0;
     for (int unsigned i = 0; i < 3; i++) begin

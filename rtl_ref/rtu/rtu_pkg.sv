@@ -4,7 +4,6 @@ package rtu_pkg;
 
   // Where a result comes from, and with the same number: to whom the cache replies.
   localparam int unsigned FromPair = 0, FromBox = 1, FromStack = 2;
-  localparam int unsigned FromPassed = 3;  // a ray whose leaf is known
   localparam int unsigned ToBox = 0, ToPair = 1, ToScheduler = 2;
 
   localparam int unsigned EntryBits = 64;

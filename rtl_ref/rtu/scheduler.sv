@@ -96,7 +96,7 @@ module scheduler #(
   localparam int unsigned HitResult = HitBits + 1 + TagWidth;
   // Room for all that is on its way when no more is taken: two lanes in three stages, and a ray that hits nothing.
   localparam int unsigned HitQueue = 16, HitReserve = 10;
-  localparam int unsigned NumberBits = 28;
+  localparam int unsigned NumberBits = 28, FromPassed = 3;
   localparam int unsigned HitSpaceWidth = $clog2(HitQueue + 1);
 
   logic [2:0] block_entries;
@@ -152,7 +152,7 @@ module scheduler #(
     assign pair = place[lane] ? pair_result[PairResult+:PairResult] : pair_result[0+:PairResult];
     assign from_box = source[2*lane+:2] == 2'(rtu_pkg::FromBox);
     assign from_pair = source[2*lane+:2] == 2'(rtu_pkg::FromPair);
-    assign from_passed = MailboxEntries > 0 && source[2*lane+:2] == 2'(rtu_pkg::FromPassed);
+    assign from_passed = MailboxEntries > 0 && source[2*lane+:2] == 2'(FromPassed);
     always_comb begin
       if (from_box) begin
         take_slot[lane*SlotWidth+:SlotWidth] = box[SlotWidth-1:0];
