@@ -103,15 +103,16 @@ class MailboxBench {
     }
 
     void check(const Decision& d, std::uint32_t lane) {
-        was_found_ = (unit_.found_o >> lane & 1) != 0;
+        const bool is_found = (unit_.found_o >> lane & 1) != 0;
         if (d.is_valid && d.is_first) {
             model_[d.slot].clear(true);
             recent_[d.slot].numbers.clear();
         }
         if (!d.looks_up) {
-            ASSERT_FALSE(was_found_);
+            ASSERT_FALSE(is_found);
             return;
         }
+        was_found_ = is_found;
         const auto leaf = model::NodeRef::leaf(std::uint64_t(d.number) * model::image_block_bytes, 1);
         const bool is_known = model_[d.slot].look_up(leaf) == model::MailboxAnswer::Known;
         ASSERT_EQ(was_found_, is_known) << "slot " << d.slot << ", number " << d.number;
@@ -154,7 +155,7 @@ TEST(MailboxRtl, AnswersAsTheModelAndAListOfTheLastNumbers) {
         MailboxBench bench(entries);
         std::array<bool, slot_count> has_ray{};
         std::array<Decision, lane_count> decisions{};
-        const std::uint64_t wanted = vector_count(1'100'000) / model::max_mailbox_entries;
+        const std::uint64_t wanted = test::vector_count(1'100'000) / model::max_mailbox_entries;
         while (bench.lookups < wanted && !testing::Test::HasFatalFailure()) {
             const auto next_slots = draw_slots(random, decisions);
             bench.decide(decisions, next_slots);
