@@ -20,7 +20,7 @@ inline std::vector<sim::RaySlot> started_slots(std::uint32_t count, const model:
                                                const model::Ray& ray) {
     std::vector<sim::RaySlot> slots(count);
     for (sim::RaySlot& slot : slots)
-        EXPECT_TRUE(slot.walk.start(image, {ray, {}}, model::RayKind::ClosestHit));
+        EXPECT_TRUE(slot.walk.start(image, {ray, {}}, model::RayKind::ClosestHit, {}));
     return slots;
 }
 
