@@ -113,7 +113,6 @@ void RayScheduler::advance(std::uint32_t slot, Cycle now) {
     RaySlot& ray = slots_[slot];
     const bool is_satisfied = ray.walk.is_satisfied();
     if (!is_satisfied && ray.walk.pop(ray.spilled)) {
-        while (ray.walk.stack_size() - ray.spilled > config_.stack_entries) queue_spill(slot);
         if (looks_up_ && ray.walk.current().is_leaf()) {
             look_up(slot);
         } else {
@@ -176,7 +175,9 @@ void RayScheduler::finish(std::uint32_t slot, Cycle now) {
 }
 
 void RayScheduler::queue_fetch(std::uint32_t slot) {
-    const model::NodeRef ref = slots_[slot].walk.current();
+    const RaySlot& ray = slots_[slot];
+    while (ray.walk.stack_size() - ray.spilled > config_.stack_entries) queue_spill(slot);
+    const model::NodeRef ref = ray.walk.current();
     const std::uint64_t bytes =
         ref.is_leaf() ? std::uint64_t(ref.pair_count()) * model::image_block_bytes : node_bytes_;
     const ReplyTo target = ref.is_leaf() ? ReplyTo::PairUnit : ReplyTo::BoxUnit;

@@ -19,8 +19,11 @@ all_units=(fp32_mul fp32_add fp32_compare stream_fifo:Width=7:Depth=8 stream_fif
     stream_fifo:Width=64:Depth=16 near_to_far:Width=2 near_to_far:Width=3 near_to_far:Width=4 near_to_far:Width=6
     near_to_far:Width=8 slab_lane box_tester:Width=2 box_tester:Width=3 box_tester:Width=4 box_tester:Width=6
     box_tester:Width=8 pair_reject:Mode=0 pair_reject:Mode=1 pair_reject:Mode=2 exact_accumulator hit_unit
-    pair_tester:Mode=0 pair_tester:Mode=1 pair_tester:Mode=2 result_select order_issue order_ram:Width=45:Slots=128 stack_ram:Slots=128:Row=19 free_slots:Slots=16
-    free_slots:Slots=64 free_slots:Slots=128 multi_fifo:Width=46:Depth=4:Push=2:Pop=2
+    pair_tester:Mode=0 pair_tester:Mode=1 pair_tester:Mode=2 result_select result_select:Passes=1
+    mailbox:Entries=1 mailbox:Entries=2 mailbox:Entries=4 mailbox:Entries=8 mailbox:Entries=16
+    held_stack:Width=4:Row=19 order_issue order_ram:Width=45:Slots=128 stack_ram:Slots=128:Row=19 free_slots:Slots=16
+    free_slots:Slots=64 free_slots:Slots=128 multi_fifo:Width=7:Depth=8:Push=2:Pop=2
+    multi_fifo:Width=46:Depth=4:Push=2:Pop=2
     multi_fifo:Width=267:Depth=8:Push=1:Pop=2 multi_fifo:Width=60:Depth=16:Push=3:Pop=2 stack_survivors:Row=11
     stack_survivors:Row=15 stack_survivors:Row=19 ray_step:Width=2:Row=17 ray_step:Width=4:Row=15
     ray_step:Width=4:Row=19 ray_step:Width=6:Row=21 ray_step:Width=8:Row=23 cache_control:Ways=4

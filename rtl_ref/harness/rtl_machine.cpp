@@ -23,6 +23,7 @@ constexpr std::uint32_t built_hit_units = 8;
 struct Build {
     std::uint32_t width;
     TesterMode mode;
+    std::uint32_t mailbox_entries;  // at most
     RtlResult (*run)(const model::MemoryImage&, std::span<const model::Ray>, model::RayKind, const RtlConfig&,
                      const Waves*, const Disturbance*);
 };
@@ -34,17 +35,19 @@ RtlResult run_on(const model::MemoryImage& image, std::span<const model::Ray> ra
 }
 
 // As listed in rtl_ref/CMakeLists.txt.
-constexpr std::array builds{
-    Build{4, TesterMode::DualShared, run_on<Vrtu_4_2>}, Build{4, TesterMode::Single, run_on<Vrtu_4_0>},
-    Build{4, TesterMode::DualIndependent, run_on<Vrtu_4_1>},
-    Build{2, TesterMode::DualShared, run_on<Vrtu_2_2>}, Build{8, TesterMode::DualShared, run_on<Vrtu_8_2>}};
+constexpr std::array builds{Build{4, TesterMode::DualShared, 16, run_on<Vrtu_4_2>},
+                            Build{4, TesterMode::Single, 0, run_on<Vrtu_4_0>},
+                            Build{4, TesterMode::DualIndependent, 0, run_on<Vrtu_4_1>},
+                            Build{2, TesterMode::DualShared, 0, run_on<Vrtu_2_2>},
+                            Build{8, TesterMode::DualShared, 0, run_on<Vrtu_8_2>}};
 
-constexpr Build recording{4, TesterMode::DualShared, run_on<Vrtu_waves>};
+constexpr Build recording{4, TesterMode::DualShared, 16, run_on<Vrtu_waves>};
 
 const Build* find_build(const RtlConfig& config) {
     if (config.hit_units != built_hit_units) return nullptr;
     const auto found = std::ranges::find_if(builds, [&](const Build& build) {
-        return std::pair(build.width, build.mode) == std::pair(config.width, config.mode);
+        return std::pair(build.width, build.mode) == std::pair(config.width, config.mode) &&
+               config.mailbox_entries <= build.mailbox_entries;
     });
     return found == builds.end() ? nullptr : &*found;
 }
@@ -62,6 +65,7 @@ void require_power_of_two(std::string_view name, std::uint32_t value) {
 void check(const RtlConfig& config) {
     require("slots", config.slots, 1, 128);
     require("stack entries", config.stack_entries, 1, 16);
+    require("mailbox entries", config.mailbox_entries, 0, 16);
     require("cache banks", config.cache.banks, 1, 4);
     require_power_of_two("cache banks", config.cache.banks);
     require("cache sets", config.cache.sets, config.cache.banks, 32);
@@ -79,8 +83,8 @@ void check(const model::MemoryImage& image, const RtlConfig& config) {
         throw Error("rtl: expected a tree of width {}, got {}", config.width, image.width);
     }
     if (image.format != model::NodeFormat::Full) throw Error("rtl: expected full nodes, got quantised ones");
-    if (image.pair_count != image.leaf_count) {
-        throw Error("rtl: expected leaves of one pair, got {} pairs in {} leaves", image.pair_count,
+    if (image.reference_count != image.leaf_count) {
+        throw Error("rtl: expected leaves of one pair, got {} pairs in {} leaves", image.reference_count,
                     image.leaf_count);
     }
     const model::StackRegion stacks =
@@ -108,8 +112,9 @@ RtlResult run_rtl(const model::MemoryImage& image, std::span<const model::Ray> r
                   const RtlConfig& config, const Waves* waves, const Disturbance* disturbance) {
     const Build* build = find_build(config);
     if (build == nullptr) {
-        throw Error("rtl: an RTU of width {}, pair mode {} and {} hit units was not built", config.width,
-                    std::uint32_t(config.mode), config.hit_units);
+        throw Error(
+            "rtl: an RTU of width {}, pair mode {}, {} hit units and {} mailbox entries was not built",
+            config.width, std::uint32_t(config.mode), config.hit_units, config.mailbox_entries);
     }
     check(config);
     check(image, config);

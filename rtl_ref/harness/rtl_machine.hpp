@@ -16,14 +16,16 @@ namespace rtu::rtl {
 enum class TesterMode : std::uint8_t { Single, DualIndependent, DualShared };
 
 /// A configuration of the RTU in SystemVerilog and of the memory behind it. Width, mode and hit units are
-/// fixed when it is Verilated: see has_build(). All else is chosen when it runs, up to the maxima of
-/// rtl_ref/rtu/rtu.sv.
+/// fixed when it is Verilated, and so is whether it has a mailbox: see has_build(). All else is chosen when
+/// it runs, up to the maxima of rtl_ref/rtu/rtu.sv.
 struct RtlConfig {
     std::uint32_t width = 4;  ///< children of a node, and box tests a cycle
     TesterMode mode = TesterMode::DualShared;
     std::uint32_t hit_units = 8;
     std::uint32_t slots = 128;         ///< 1 to 128
     std::uint32_t stack_entries = 16;  ///< 1 to 16
+    std::uint32_t mailbox_entries =
+        0;  ///< of a ray, the pairs tested last; 0 to 16, width 4 and DualShared only, else 0
 
     /// The L1: lines of 128 bytes in sectors of 32.
     struct Cache {
@@ -48,7 +50,8 @@ struct RtlConfig {
 struct RtlResult {
     std::vector<std::optional<model::Hit>> hits;  ///< in the order of the rays
     std::uint64_t cycles = 0;  ///< from the first ray accepted to the last hit returned, both cycles included
-    model::TraversalCounts counts;
+    model::TraversalCounts counts;  ///< but duplicate_tests, which it cannot tell
+    std::uint64_t mailbox_lookups = 0;
     std::uint64_t spilled_entries = 0;  ///< of stacks, written to memory
     std::uint64_t reloaded_entries = 0;
     std::uint64_t cache_hits = 0;  ///< line reads
@@ -71,7 +74,7 @@ struct Disturbance {
         false;  ///< hits and memory requests are not always taken, rays and fills not always offered
 };
 
-/// Whether an RTU of this width, mode and number of hit units was Verilated.
+/// Whether an RTU of this width, mode and number of hit units, with so large a mailbox, was Verilated.
 [[nodiscard]] bool has_build(const RtlConfig& config);
 
 /// Runs rays through the RTU. The image has one pair a leaf. Only the RTU of the default RtlConfig's width

@@ -89,6 +89,7 @@ class RtlRun {
     void configure() {
         unit_->last_slot_i = std::uint8_t(config_.slots - 1);
         unit_->stack_entries_i = std::uint8_t(config_.stack_entries);
+        unit_->mailbox_entries_i = std::uint8_t(config_.mailbox_entries);
         unit_->stack_base_i = std::uint32_t(stacks_.base_address);
         unit_->stack_slot_bytes_i = std::uint16_t(stacks_.slot_bytes);
         unit_->set_mask_i = std::uint8_t(config_.cache.sets - 1);
@@ -208,6 +209,8 @@ class RtlRun {
             ++result_.counts.pair_tests;
             result_.counts.triangle_tests += unit_->pair_has_second_o ? 2 : 1;
         }
+        result_.mailbox_lookups += std::uint32_t(std::popcount(std::uint32_t(unit_->mailbox_lookup_o)));
+        result_.counts.mailbox_hits += std::uint32_t(std::popcount(std::uint32_t(unit_->mailbox_hit_o)));
         const std::uint32_t block = model::spill_block_size(config_.stack_entries);
         result_.spilled_entries += block * unit_->block_write_o;
         result_.reloaded_entries += block * std::uint32_t(std::popcount(std::uint32_t(unit_->block_read_o)));

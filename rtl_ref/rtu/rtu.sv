@@ -30,6 +30,7 @@ module rtu #(
   parameter int unsigned Mshrs        = 64,
   parameter int unsigned Targets      = 16,
   parameter int unsigned MaxLatency   = 32,
+  parameter int unsigned MailboxEntries = 0,  // most of a ray; 0: there is no mailbox
   localparam int unsigned SlotWidth = $clog2(Slots),
   localparam int unsigned HitBits = rtu_pkg::HitBits,
   localparam int unsigned NodeSectors = 2 * ((28 * Width + 4 + 63) / 64),
@@ -39,6 +40,7 @@ module rtu #(
   input  logic                           rst_ni,
   input  logic [SlotWidth-1:0]           last_slot_i,
   input  logic [4:0]                     stack_entries_i,
+  input  logic [4:0]                     mailbox_entries_i,
   input  logic [AddressBits-1:0]         stack_base_i,
   input  logic [15:0]                    stack_slot_bytes_i,
   input  logic [$clog2(Sets)-1:0]        set_mask_i,
@@ -81,19 +83,21 @@ module rtu #(
   input  logic [$clog2(Mshrs)+3:0]       fill_id_i,
   input  logic [1023:0]                  fill_data_i,
   // What happens in the cycle, for counters: a node is tested, its children; a pair is tested, it has a second
-  // triangle; stack blocks written (one at most) and asked for.
+  // triangle; stack blocks written (one at most) and asked for; leaves that mailboxes were asked for, those known.
   output logic                           node_visit_o,
   output logic [3:0]                     node_children_o,
   output logic                           pair_test_o,
   output logic                           pair_has_second_o,
   output logic                           block_write_o,
   output logic [1:0]                     block_read_o,
+  output logic [1:0]                     mailbox_lookup_o,
+  output logic [1:0]                     mailbox_hit_o,
   output logic [7*Banks+6:0]             cache_events_o
 );
 
   // Configuration registers: nothing depends on the inputs within a cycle.
   logic [SlotWidth-1:0] last_slot_q;
-  logic [5-1:0] stack_entries_q;
+  logic [5-1:0] stack_entries_q, mailbox_entries_q;
   logic [AddressBits-1:0] stack_base_q;
   logic [16-1:0] stack_slot_bytes_q;
   logic [$clog2(Sets)-1:0] set_mask_q;
@@ -105,6 +109,7 @@ module rtu #(
   always_ff @(posedge clk_i) begin
     last_slot_q <= last_slot_i;
     stack_entries_q <= stack_entries_i;
+    mailbox_entries_q <= mailbox_entries_i;
     stack_base_q <= stack_base_i;
     stack_slot_bytes_q <= stack_slot_bytes_i;
     set_mask_q <= set_mask_i;
@@ -128,10 +133,10 @@ module rtu #(
 
   rtu_core #(
     .Width(Width), .Mode(Mode), .HitUnits(HitUnits), .Slots(Slots), .StackEntries(StackEntries), .TagWidth(TagWidth),
-    .AddressBits(AddressBits)
+    .AddressBits(AddressBits), .MailboxEntries(MailboxEntries)
   ) u_core (
-    .clk_i, .rst_ni, .last_slot_i(last_slot_q), .stack_entries_i(stack_entries_q), .stack_base_i(stack_base_q),
-    .stack_slot_bytes_i(stack_slot_bytes_q), .ray_valid_i, .ray_ready_o, .ray_tag_i, .ray_can_hit_i, .ray_any_hit_i,
+    .clk_i, .rst_ni, .last_slot_i(last_slot_q), .stack_entries_i(stack_entries_q),
+    .mailbox_entries_i(mailbox_entries_q), .stack_base_i(stack_base_q), .stack_slot_bytes_i(stack_slot_bytes_q), .ray_valid_i, .ray_ready_o, .ray_tag_i, .ray_can_hit_i, .ray_any_hit_i,
     .ray_origin_i, .ray_direction_i, .ray_origin_near_i, .ray_origin_far_i, .ray_inv_direction_i, .ray_entry_side_i,
     .ray_kz_i, .ray_shear_x_i, .ray_shear_y_i, .ray_t_min_i, .ray_t_max_i, .hit_valid_o, .hit_ready_i, .hit_tag_o,
     .hit_found_o, .hit_o, .request_valid_o(request_valid), .request_ready_i(request_ready),
@@ -139,7 +144,7 @@ module rtu #(
     .request_to_o(request_to), .request_is_write_o(request_is_write), .request_data_o(request_data),
     .reply_valid_i(reply_valid), .reply_ready_o(reply_ready), .reply_slot_i(reply_slot),
     .reply_next_slot_i(reply_next_slot[2*SlotWidth-1:0]), .node_i(node[256*NodeSectors-1:0]), .leaf_i(leaf),
-    .stack_block_i(stack_block)
+    .stack_block_i(stack_block), .mailbox_lookup_o, .mailbox_hit_o
   );
 
   cache #(

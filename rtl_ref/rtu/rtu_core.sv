@@ -11,6 +11,7 @@ module rtu_core #(
   parameter int unsigned StackEntries = 16,
   parameter int unsigned TagWidth     = 32,
   parameter int unsigned AddressBits  = 32,
+  parameter int unsigned MailboxEntries = 0,
   localparam int unsigned SlotWidth = Slots > 1 ? $clog2(Slots) : 1,
   localparam int unsigned HitBits = rtu_pkg::HitBits,
   localparam int unsigned NodeSectors = 2 * ((28 * Width + 4 + 63) / 64)
@@ -19,6 +20,7 @@ module rtu_core #(
   input  logic                       rst_ni,
   input  logic [SlotWidth-1:0]       last_slot_i,
   input  logic [4:0]                 stack_entries_i,
+  input  logic [4:0]                 mailbox_entries_i,
   input  logic [AddressBits-1:0]     stack_base_i,
   input  logic [15:0]                stack_slot_bytes_i,
   // Rays, prepared as by model/ray_setup.hpp. Vectors are {z, y, x}.
@@ -59,7 +61,9 @@ module rtu_core #(
   input  logic [2*SlotWidth-1:0]     reply_next_slot_i,  // of the oldest reply in the next cycle
   input  logic [NodeSectors*256-1:0] node_i,
   input  logic [511:0]               leaf_i,
-  input  logic [255:0]               stack_block_i
+  input  logic [255:0]               stack_block_i,
+  output logic [1:0]                 mailbox_lookup_o,
+  output logic [1:0]                 mailbox_hit_o
 );
 
   localparam int unsigned ToBox = rtu_pkg::ToBox, ToPair = rtu_pkg::ToPair, ToScheduler = rtu_pkg::ToScheduler;
@@ -95,10 +99,11 @@ module rtu_core #(
   );
 
   scheduler #(
-    .Width(Width), .Slots(Slots), .StackEntries(StackEntries), .TagWidth(TagWidth), .AddressBits(AddressBits)
+    .Width(Width), .Slots(Slots), .StackEntries(StackEntries), .TagWidth(TagWidth), .AddressBits(AddressBits),
+    .MailboxEntries(MailboxEntries)
   ) u_scheduler (
-    .clk_i, .rst_ni, .last_slot_i, .stack_entries_i, .stack_base_i, .stack_slot_bytes_i, .ray_valid_i(ray_valid),
-    .ray_ready_o(ray_ready), .ray_tag_i(tag), .ray_can_hit_i(can_hit), .ray_any_hit_i(any_hit), .ray_t_max_i(t_max),
+    .clk_i, .rst_ni, .last_slot_i, .stack_entries_i, .mailbox_entries_i, .stack_base_i, .stack_slot_bytes_i,
+    .ray_valid_i(ray_valid), .ray_ready_o(ray_ready), .ray_tag_i(tag), .ray_can_hit_i(can_hit), .ray_any_hit_i(any_hit), .ray_t_max_i(t_max),
     .ray_start_o(start), .ray_slot_o(start_slot), .box_valid_i(box_valid), .box_ready_o(box_ready),
     .box_slot_i(box_slot), .box_met_i(box_met), .box_entries_i(box_entries), .pair_valid_i(pair_valid),
     .pair_ready_o(pair_ready), .pair_slot_i(pair_slot), .pair_found_i(pair_found), .pair_hit_i(pair_hit),
@@ -108,7 +113,7 @@ module rtu_core #(
     .box_t_best_o(box_t_best), .pair_read_slot_i(reply_next_slot_i[ToPair*SlotWidth+:SlotWidth]),
     .pair_has_best_o(pair_has_best), .pair_best_o(pair_best), .request_valid_o, .request_ready_i, .request_address_o,
     .request_sectors_o, .request_slot_o, .request_to_o, .request_is_write_o, .request_data_o, .hit_valid_o,
-    .hit_ready_i, .hit_tag_o, .hit_found_o, .hit_o
+    .hit_ready_i, .hit_tag_o, .hit_found_o, .hit_o, .mailbox_lookup_o, .mailbox_hit_o
   );
 
   box_unit #(.Width(Width), .Slots(Slots)) u_box (

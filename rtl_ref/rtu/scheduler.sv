@@ -6,6 +6,9 @@
 //         3  where the ray goes on (ray_step); its stack, best hit and state are written, its slot is given back
 //         4  what it asks for leaves, if nothing is queued ahead of it; or its hit does
 //
+// With a mailbox, the leaf of stage 3 is looked up within the stage. A ray whose leaf is known asks for nothing: it
+// begins anew at stage 1, in the cycle after stage 4 at the soonest, ahead of results.
+//
 // A ray is accepted beside that: its root's fetch is queued at once. Two lanes work side by side, on different rays: a
 // ray has one thing under way at a time, so whoever holds its slot's number is the only one to touch the slot.
 module scheduler #(
@@ -14,6 +17,7 @@ module scheduler #(
   parameter int unsigned StackEntries = 16,   // most entries of a stack on chip
   parameter int unsigned TagWidth     = 32,
   parameter int unsigned AddressBits  = 32,
+  parameter int unsigned MailboxEntries = 0,  // most entries of a ray's mailbox, 0 to 16; 0: there is none
   localparam int unsigned SlotWidth = Slots > 1 ? $clog2(Slots) : 1,
   localparam int unsigned HitBits = rtu_pkg::HitBits,
   localparam int unsigned NodeSectors = 2 * ((28 * Width + 4 + 63) / 64)
@@ -23,6 +27,7 @@ module scheduler #(
   // Configuration, constant from reset on.
   input  logic [SlotWidth-1:0]     last_slot_i,      // slots in use - 1
   input  logic [4:0]               stack_entries_i,  // in use, 1 to StackEntries
+  input  logic [4:0]               mailbox_entries_i,  // in use, 0 to MailboxEntries
   input  logic [AddressBits-1:0]   stack_base_i,
   input  logic [15:0]              stack_slot_bytes_i,
   // Rays.
@@ -70,7 +75,10 @@ module scheduler #(
   input  logic [1:0]               hit_ready_i,      // 1 only beside 0
   output logic [2*TagWidth-1:0]    hit_tag_o,
   output logic [1:0]               hit_found_o,
-  output logic [2*HitBits-1:0]     hit_o
+  output logic [2*HitBits-1:0]     hit_o,
+  // For counters, a bit a lane: a mailbox is asked for a leaf; it is known.
+  output logic [1:0]               mailbox_lookup_o,
+  output logic [1:0]               mailbox_hit_o
 );
 
   localparam int unsigned Lanes = 2;
@@ -88,6 +96,7 @@ module scheduler #(
   localparam int unsigned HitResult = HitBits + 1 + TagWidth;
   // Room for all that is on its way when no more is taken: two lanes in three stages, and a ray that hits nothing.
   localparam int unsigned HitQueue = 16, HitReserve = 10;
+  localparam int unsigned NumberBits = 28, FromPassed = 3;
   localparam int unsigned HitSpaceWidth = $clog2(HitQueue + 1);
 
   logic [2:0] block_entries;
@@ -100,6 +109,8 @@ module scheduler #(
   logic [3:0] box_space;
   logic [2:0] pair_space;
   logic [5:0] pop;
+  logic [1:0] passed_valid, passed_pop;
+  logic [2*SlotWidth-1:0] passed_slot;
 
   multi_fifo #(.Width(BoxResult), .Depth(8), .Pop(2)) u_box_results (
     .clk_i, .rst_ni, .push_i(box_valid_i & box_ready_o), .data_i({box_entries_i, box_met_i, box_slot_i}),
@@ -119,9 +130,10 @@ module scheduler #(
   logic [Lanes-1:0] take, place;
   logic [2*Lanes-1:0] source;
   assign has_room = hit_space >= HitSpaceWidth'(HitReserve);
-  result_select u_select (
-    .clk_i, .rst_ni, .enable_i(has_room), .valid_i({1'b0, block_valid_i, box_valid, pair_valid}), .valid_o(take),
-    .source_o(source), .place_o(place), .pop_o(pop)
+  result_select #(.Passes(MailboxEntries > 0)) u_select (
+    .clk_i, .rst_ni, .enable_i(has_room), .valid_i({1'b0, block_valid_i, box_valid, pair_valid}),
+    .passed_valid_i(passed_valid), .valid_o(take), .source_o(source), .place_o(place), .pop_o(pop),
+    .passed_pop_o(passed_pop)
   );
 
   logic [Lanes*SlotWidth-1:0] take_slot;
@@ -134,12 +146,13 @@ module scheduler #(
   for (genvar lane = 0; lane < Lanes; lane++) begin : gen_take
     logic [BoxResult-1:0] box;
     logic [PairResult-1:0] pair;
-    logic from_box, from_pair;
+    logic from_box, from_pair, from_passed;
     logic [Payload-1:0] payload;
     assign box = place[lane] ? box_result[BoxResult+:BoxResult] : box_result[0+:BoxResult];
     assign pair = place[lane] ? pair_result[PairResult+:PairResult] : pair_result[0+:PairResult];
     assign from_box = source[2*lane+:2] == 2'(rtu_pkg::FromBox);
     assign from_pair = source[2*lane+:2] == 2'(rtu_pkg::FromPair);
+    assign from_passed = MailboxEntries > 0 && source[2*lane+:2] == 2'(FromPassed);
     always_comb begin
       if (from_box) begin
         take_slot[lane*SlotWidth+:SlotWidth] = box[SlotWidth-1:0];
@@ -147,6 +160,9 @@ module scheduler #(
       end else if (from_pair) begin
         take_slot[lane*SlotWidth+:SlotWidth] = pair[SlotWidth-1:0];
         payload = Payload'(pair[SlotWidth+1+:HitBits]);
+      end else if (from_passed) begin
+        take_slot[lane*SlotWidth+:SlotWidth] = passed_slot[(place[lane]?SlotWidth:0)+:SlotWidth];
+        payload = Payload'(block_i);
       end else begin
         take_slot[lane*SlotWidth+:SlotWidth] = block_slot_i;
         payload = Payload'(block_i);
@@ -156,7 +172,7 @@ module scheduler #(
       slot_2_q[lane*SlotWidth+:SlotWidth] <= take_slot[lane*SlotWidth+:SlotWidth];
       payload_2_q[lane] <= payload;
       met_2_q[lane] <= from_box ? box[SlotWidth+:4] : '0;
-      is_block_2_q[lane] <= ~from_box & ~from_pair;
+      is_block_2_q[lane] <= ~from_box & ~from_pair & ~from_passed;
       found_2_q[lane] <= from_pair & pair[SlotWidth];
     end
   end
@@ -241,7 +257,8 @@ module scheduler #(
   end
 
   // ---- Stage 3: decide, and write it down.
-  logic [Lanes-1:0] ends, order_valid, best_write;
+  logic [Lanes-1:0] ends, order_valid, best_write, to_leaf, is_known;
+  logic [Lanes*NumberBits-1:0] number;  // of the leaf's pair
   logic [Lanes*HeadBits-1:0] new_head;
   logic [Lanes*OrderBits-1:0] new_order;
   logic [Lanes*Row-1:0] entry_write;
@@ -253,21 +270,34 @@ module scheduler #(
   for (genvar lane = 0; lane < Lanes; lane++) begin : gen_decide
     logic step_ends, reloads;
     logic [31:0] node_ref;
-    logic [SpillBits-1:0] spills;
-    logic [PlaceWidth-1:0] base;
-    logic [CountWidth-1:0] count;
-    logic [BlockBits-1:0] blocks;
+    logic [SpillBits-1:0] step_spills, spills;
+    logic [PlaceWidth-1:0] step_base, base;
+    logic [CountWidth-1:0] step_count, count;
+    logic [BlockBits-1:0] step_blocks, blocks;
     logic [Row-1:0] write;
     ray_step #(.Width(Width), .Row(Row)) u_step (
       .entries_i(CountWidth'(stack_entries_i)), .block_entries_i(block_entries), .is_block_i(is_block_3_q[lane]),
       .is_satisfied_i(is_satisfied_3_q[lane]), .met_i(met_3_q[lane]), .payload_i(payload_3_q[lane]),
       .refs_i(refs_3_q[lane]), .low_i(low_3_q[lane]), .high_i(high_3_q[lane]), .base_i(base_3_q[lane]),
-      .free_i(free_3_q[lane]), .pushed_i(pushed_3_q[lane]), .blocks_i(blocks_3_q[lane]), .ends_o(step_ends),
-      .reloads_o(reloads), .ref_o(node_ref), .spills_o(spills), .base_o(base), .count_o(count), .blocks_o(blocks),
-      .write_o(write), .row_o(new_row[lane*64*Row+:64*Row])
+      .free_i(free_3_q[lane]), .pushed_i(pushed_3_q[lane]), .blocks_i(blocks_3_q[lane]),
+      .ends_o(step_ends), .reloads_o(reloads), .ref_o(node_ref), .spills_o(step_spills), .base_o(step_base),
+      .count_o(step_count), .blocks_o(step_blocks), .write_o(write), .row_o(new_row[lane*64*Row+:64*Row])
     );
+    if (MailboxEntries > 0) begin : gen_held
+      held_stack #(.Width(Width), .Row(Row)) u_held (
+        .entries_i(CountWidth'(stack_entries_i)), .block_entries_i(block_entries),
+        .has_child_i(met_3_q[lane] != '0), .is_known_i(is_known[lane]), .base_i(base_3_q[lane]),
+        .pushed_i(pushed_3_q[lane]), .blocks_i(blocks_3_q[lane]), .step_spills_i(step_spills),
+        .step_base_i(step_base), .step_count_i(step_count), .step_blocks_i(step_blocks), .spills_o(spills),
+        .base_o(base), .count_o(count), .blocks_o(blocks)
+      );
+    end else begin : gen_step
+      assign {spills, base, count, blocks} = {step_spills, step_base, step_count, step_blocks};
+    end
+    assign to_leaf[lane] = valid_3_q[lane] & ~step_ends & ~reloads & node_ref[31];
+    assign number[lane*NumberBits+:NumberBits] = node_ref[NumberBits-1:0];
     assign ends[lane] = valid_3_q[lane] & step_ends;
-    assign order_valid[lane] = valid_3_q[lane] & ~step_ends;
+    assign order_valid[lane] = valid_3_q[lane] & ~step_ends & ~is_known[lane];
     assign entry_write[lane*Row+:Row] = write & {Row{valid_3_q[lane]}};
     assign new_state[lane*StateBits+:StateBits] = {blocks, count, base};
     assign new_head[lane*HeadBits+:HeadBits] = {
@@ -291,6 +321,40 @@ module scheduler #(
       valid_4_q <= ends;
     end
   end
+
+  // ---- Stage 3 again: the leaf in the mailbox; and a stage later, rays that pass it over.
+  if (MailboxEntries > 0) begin : gen_mailbox
+    localparam int unsigned EntryWidth = MailboxEntries > 1 ? $clog2(MailboxEntries) : 1;
+    // Two lanes in three stages, and two that wait.
+    localparam int unsigned PassedQueue = 8;
+    logic [Lanes-1:0] is_first_3_q, lookup, is_known_4_q;
+    logic [Lanes*SlotWidth-1:0] slot_4_q;
+    assign lookup = to_leaf & {Lanes{mailbox_entries_i != '0}};
+    mailbox #(.Entries(MailboxEntries), .Slots(Slots), .Lanes(Lanes), .NumberBits(NumberBits)) u_mailbox (
+      .clk_i, .rst_ni, .last_entry_i(EntryWidth'(mailbox_entries_i - 1'b1)), .read_slot_i(slot_2_q),
+      .valid_i(valid_3_q), .slot_i(slot_3_q), .is_first_i(is_first_3_q), .lookup_i(lookup), .number_i(number),
+      .found_o(is_known)
+    );
+    multi_fifo #(.Width(SlotWidth), .Depth(PassedQueue), .Push(Lanes), .Pop(2)) u_passed (
+      .clk_i, .rst_ni, .push_i(is_known_4_q), .data_i(slot_4_q), .space_o(), .valid_o(passed_valid),
+      .data_o(passed_slot), .next_o(), .pop_i(passed_pop)
+    );
+    always_ff @(posedge clk_i) begin
+      is_first_3_q <= ~had_stack_q;
+      slot_4_q <= slot_3_q;
+    end
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) is_known_4_q <= '0;
+      else is_known_4_q <= is_known;
+    end
+    assign mailbox_lookup_o = lookup;
+  end else begin : gen_no_mailbox
+    assign is_known = '0;
+    assign passed_valid = '0;
+    assign passed_slot = '0;
+    assign mailbox_lookup_o = '0;
+  end
+  assign mailbox_hit_o = is_known;
 
   // ---- Rays come in.
   logic slot_is_free, accept;

@@ -143,24 +143,56 @@ constexpr std::uint32_t ray_number_bits = 32;   // in a word of a mailbox in mem
 
 GateCounts comparator_area(double bits) { return logic(bits * (xnor2 + and2)); }
 
+// Of two results a cycle: counted for powers of two, and between them linear.
+GateCounts recent_mailbox_area(std::uint32_t entries) {
+    const auto row = [](std::uint32_t n) { return gate_counts(fmt::format("mailbox:Entries={}", n)); };
+    const std::uint32_t few = std::bit_floor(entries), many = std::bit_ceil(entries);
+    if (few == many) return row(entries);
+    return row(few) + times(double(entries - few) / (many - few), minus(row(many), row(few)));
+}
+
+// What a scheduler with rays that pass leaves over has more; two results a cycle were counted.
+void add_passing(const sim::Config& config, std::vector<AreaPart>& parts) {
+    const sim::Config::Rtu& rtu = config.rtu;
+    const double lanes = rtu.results_per_cycle / 2.0;
+    if (rtu.mailbox.kind == model::MailboxKind::Recent) {
+        const std::string row = fmt::format("mailbox:Entries={}", rtu.mailbox.entries);
+        if (lanes == 1 && std::has_single_bit(rtu.mailbox.entries)) {
+            parts.push_back(counted("scheduler", "mailbox comparison", 1, row));
+        } else {
+            parts.push_back(formula("scheduler", "mailbox comparison", lanes,
+                                    recent_mailbox_area(rtu.mailbox.entries),
+                                    "mailbox, linear between powers of two"));
+        }
+    }
+    parts.push_back(scaled("scheduler", "stacks held back", rtu.results_per_cycle,
+                           "held_stack:Width=4:Row=19", row_of(config) / 19.0));
+    parts.push_back(scaled("scheduler", "rays that pass leaves over", 1,
+                           "multi_fifo:Width=7:Depth=8:Push=2:Pop=2",
+                           std::max(1U, ceil_log2(rtu.ray_slots)) / 7.0));
+}
+
 // Of each result: the row of its ray is read, compared, and written back in one place.
-void add_mailbox(const sim::Config::Rtu& rtu, std::vector<AreaPart>& parts) {
+void add_mailbox(const sim::Config& config, std::vector<AreaPart>& parts) {
+    const sim::Config::Rtu& rtu = config.rtu;
     const model::MailboxOptions& mailbox = rtu.mailbox;
     if (!mailbox.is_on()) return;
     const double entries = mailbox.entries;
     double slot_bits = ray_number_bits;
     GateCounts compare = comparator_area(ray_number_bits);
     if (mailbox.kind == model::MailboxKind::Recent) {
-        slot_bits = entries * pair_number_bits + ceil_log2(mailbox.entries) + ceil_log2(mailbox.entries + 1);
-        compare = times(entries, comparator_area(pair_number_bits + 1));
+        slot_bits = entries * pair_number_bits + ceil_log2(mailbox.entries) + 1;
     } else if (mailbox.kind == model::MailboxKind::Hashed) {
         slot_bits = entries * (pair_number_bits + 1);
         compare = comparator_area(pair_number_bits + 1);
         compare += logic((entries - 1) * (pair_number_bits + 1) * mux2);
     }
     parts.push_back(array("scheduler", "mailboxes", rtu.ray_slots, slot_bits, "docs/area.md"));
-    parts.push_back(
-        formula("scheduler", "mailbox comparison", rtu.results_per_cycle, compare, "XNOR2 and AND2 a bit"));
+    if (mailbox.kind != model::MailboxKind::Recent) {
+        parts.push_back(formula("scheduler", "mailbox comparison", rtu.results_per_cycle, compare,
+                                "XNOR2 and AND2 a bit"));
+    }
+    if (mailbox.kind != model::MailboxKind::PerPair) add_passing(config, parts);
 }
 
 void add_scheduler(const sim::Config& config, std::vector<AreaPart>& parts) {
@@ -172,8 +204,10 @@ void add_scheduler(const sim::Config& config, std::vector<AreaPart>& parts) {
     parts.push_back(array("scheduler", "stacks", rtu.ray_slots, stack_entry_bits * double(row_of(config)),
                           "64 (stack_entries + width - 1)"));
     add_lanes(config, parts);
-    add_mailbox(rtu, parts);
-    parts.push_back(counted("scheduler", "choice of results", 1, "result_select"));
+    add_mailbox(config, parts);
+    const bool passes = rtu.mailbox.is_on() && rtu.mailbox.kind != model::MailboxKind::PerPair;
+    parts.push_back(
+        counted("scheduler", "choice of results", 1, passes ? "result_select:Passes=1" : "result_select"));
     parts.push_back(counted("scheduler", "issue of requests", 1, "order_issue"));
     parts.push_back(
         formula("scheduler", "free slots", 1, free_slots_area(rtu.ray_slots), "slots x log2 slots bits"));

@@ -18,6 +18,7 @@ rtl::RtlConfig rtl_config(const sim::Config& config) {
     machine.hit_units = config.rtu.pair.hit_units;
     machine.slots = config.rtu.ray_slots;
     machine.stack_entries = config.rtu.stack_entries;
+    machine.mailbox_entries = config.rtu.mailbox.entries;
     machine.cache = {config.l1.size_bytes / config.l1.line_bytes / config.l1.ways,
                      config.l1.ways,
                      config.l1.banks,

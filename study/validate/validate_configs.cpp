@@ -36,15 +36,19 @@ const std::vector<Difference>& differences() {
         {"tiny_cache", {"l1.size_bytes=2048", "l1.ways=4", "l1.mshrs=16"}},
         {"stack_2", {"rtu.stack_entries=2"}},
         {"stack_4_tiny_cache", {"rtu.stack_entries=4", "l1.size_bytes=2048", "l1.ways=4", "l1.mshrs=16"}},
+        {"splits", {"bvh.splits=spatial"}},
+        {"mailbox_4", {"bvh.splits=spatial", "rtu.mailbox.entries=4"}},
+        {"mailbox_16", {"bvh.splits=spatial", "rtu.mailbox.entries=16"}},
     };
     return all;
 }
 
 // What the RTL takes when it runs, or has several builds for.
 constexpr auto free_keys = std::to_array<std::string_view>(
-    {"bvh.width", "rtu.box.boxes_per_cycle", "rtu.ray_slots", "rtu.stack_entries", "rtu.pair.mode",
-     "rtu.pair.hit_units", "l1.size_bytes", "l1.ways", "l1.banks", "l1.mshrs", "l1.targets_per_mshr",
-     "l1.latency_cycles", "memory.latency_cycles", "memory.bytes_per_cycle", "clock_mhz", "watchdog_cycles"});
+    {"bvh.width", "bvh.splits", "bvh.split_budget_percent", "rtu.box.boxes_per_cycle", "rtu.ray_slots",
+     "rtu.stack_entries", "rtu.mailbox.entries", "rtu.pair.mode", "rtu.pair.hit_units", "l1.size_bytes",
+     "l1.ways", "l1.banks", "l1.mshrs", "l1.targets_per_mshr", "l1.latency_cycles", "memory.latency_cycles",
+     "memory.bytes_per_cycle", "clock_mhz", "watchdog_cycles"});
 
 // What a machine with a flat memory does not have.
 bool is_unused(std::string_view key) { return key.starts_with("l2.") || key.starts_with("dram."); }

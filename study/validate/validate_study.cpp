@@ -57,6 +57,7 @@ std::optional<ValidateDifference> difference(const sim::MachineResult& sim, cons
         std::tuple{"box tests", sim.counts.box_tests, rtl.counts.box_tests},
         std::tuple{"pair tests", sim.counts.pair_tests, rtl.counts.pair_tests},
         std::tuple{"triangle tests", sim.counts.triangle_tests, rtl.counts.triangle_tests},
+        std::tuple{"leaves known to a mailbox", sim.counts.mailbox_hits, rtl.counts.mailbox_hits},
         std::tuple{"spilled stack entries", spilled_entries(sim), rtl.spilled_entries}};
     for (const auto& [name, expected, got] : counts) {
         if (expected == got) continue;
@@ -103,7 +104,7 @@ class Bench {
     }
 
     const model::MemoryImage& image(const sim::Config::Bvh& bvh) {
-        auto& built = images_[{bvh.width, bvh.max_leaf_pairs}];
+        auto& built = images_[{bvh.width, bvh.splits, bvh.split_budget_percent}];
         if (!built) {
             tell("building");
             built = build_scene(loaded_.mesh, {model::PairingKind::EdgeBbsa, 0},
@@ -163,7 +164,7 @@ class Bench {
     const SceneSource& source_;
     ValidateReport& report_;
     LoadedScene loaded_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<BuiltScene>> images_;
+    std::map<std::tuple<std::uint32_t, sim::SplitKind, std::uint32_t>, std::optional<BuiltScene>> images_;
     std::optional<ChosenCamera> camera_;
     std::map<model::WorkloadKind, std::optional<model::Workload>> workloads_;
 };

@@ -16,10 +16,12 @@ namespace rtu::test {
 
 /// A mesh with its tree, as the machine sees it.
 struct RtuScene {
-    RtuScene(model::TriangleMesh a_mesh, std::uint32_t width, std::uint32_t max_leaf_pairs = 1)
+    RtuScene(model::TriangleMesh a_mesh, const model::BvhOptions& options)
         : mesh(std::move(a_mesh)),
           image(model::build_bvh(mesh, model::pair_triangles(mesh, {}, model::EdgeIdentity::Position),
-                                 {.width = width, .max_leaf_pairs = max_leaf_pairs})) {}
+                                 options)) {}
+    RtuScene(model::TriangleMesh a_mesh, std::uint32_t width, std::uint32_t max_leaf_pairs = 1)
+        : RtuScene(std::move(a_mesh), model::BvhOptions{.width = width, .max_leaf_pairs = max_leaf_pairs}) {}
 
     [[nodiscard]] model::Workload rays(model::WorkloadKind kind, const model::Camera& camera,
                                        std::uint32_t columns, std::uint32_t rows) const {
@@ -62,6 +64,7 @@ inline sim::Config simulated(const rtl::RtlConfig& config) {
     machine.rtu.pair.hit_units = config.hit_units;
     machine.rtu.ray_slots = config.slots;
     machine.rtu.stack_entries = config.stack_entries;
+    machine.rtu.mailbox = {model::MailboxKind::Recent, config.mailbox_entries};
     const rtl::RtlConfig::Cache& cache = config.cache;
     machine.l1 = {
         cache.sets * cache.ways * 128, 128, 32, cache.ways, cache.banks, cache.mshrs, cache.targets_per_mshr,

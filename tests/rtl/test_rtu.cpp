@@ -8,9 +8,12 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "model/gltf.hpp"
 #include "rtu_cases.hpp"
+#include "sim/config_keys.hpp"
+#include "tests/model/meshes.hpp"
 #include "tests/scenes.hpp"
 
 namespace rtu {
@@ -68,6 +71,10 @@ void compare(const RtlConfig& config, const RtuScene& scene, const model::Worklo
     EXPECT_EQ(rtl.counts.box_tests, simulated.counts.box_tests);
     EXPECT_EQ(rtl.counts.pair_tests, simulated.counts.pair_tests);
     EXPECT_EQ(rtl.counts.triangle_tests, simulated.counts.triangle_tests);
+    EXPECT_EQ(rtl.counts.mailbox_hits, simulated.counts.mailbox_hits);
+    if (config.mailbox_entries > 0) {
+        EXPECT_EQ(rtl.mailbox_lookups, scheduler_counter(simulated, "mailbox_lookups"));
+    }
     EXPECT_EQ(rtl.spilled_entries, scheduler_counter(simulated, "spilled_entries"));
     EXPECT_EQ(rtl.reloaded_entries, scheduler_counter(simulated, "reloaded_entries"));
     const double error = 100.0 * (double(simulated.cycles) - double(rtl.cycles)) / double(rtl.cycles);
@@ -125,48 +132,17 @@ std::vector<Case> cases() {
 INSTANTIATE_TEST_SUITE_P(OnBuiltinRays, Rtu, testing::ValuesIn(cases()),
                          [](const auto& test) { return test.param.name; });
 
-struct Number {
-    const char* key;
-    std::uint32_t& (*of)(sim::Config&);
+constexpr std::string_view timing_numbers[] = {
+    "rtu.results_per_cycle",  "rtu.fetches_per_cycle",   "rtu.scheduler.latency_cycles",
+    "rtu.box.latency_cycles", "rtu.pair.latency_cycles", "rtu.pair.ii_cycles",
+    "rtu.pair.hit_cycles",    "rtu.pair.reject_cycles",  "rtu.pair.hit_units",
+    "rtu.pair.entries",       "l1.latency_cycles",
 };
 
-constexpr Number timing_numbers[] = {
-    {"rtu.results_per_cycle", [](sim::Config& c) -> auto& {return c.rtu.results_per_cycle;
-}  // namespace
-}  // namespace rtu
-, {"rtu.fetches_per_cycle", [](sim::Config& c) -> auto& {return c.rtu.fetches_per_cycle;
+std::uint32_t& number(sim::Config& config, std::string_view name) {
+    const auto key = std::ranges::find(sim::config_keys(), name, &sim::ConfigKey::name);
+    return *std::get<std::uint32_t*>(key->field(config));
 }
-}
-, {"rtu.scheduler.latency_cycles", [](sim::Config& c) -> auto& {return c.rtu.scheduler.latency_cycles;
-}
-}
-, {"rtu.box.latency_cycles", [](sim::Config& c) -> auto& {return c.rtu.box.latency_cycles;
-}
-}
-, {"rtu.pair.latency_cycles", [](sim::Config& c) -> auto& {return c.rtu.pair.latency_cycles;
-}
-}
-, {"rtu.pair.ii_cycles", [](sim::Config& c) -> auto& {return c.rtu.pair.ii_cycles;
-}
-}
-, {"rtu.pair.hit_cycles", [](sim::Config& c) -> auto& {return c.rtu.pair.hit_cycles;
-}
-}
-, {"rtu.pair.reject_cycles", [](sim::Config& c) -> auto& {return c.rtu.pair.reject_cycles;
-}
-}
-, {"rtu.pair.hit_units", [](sim::Config& c) -> auto& {return c.rtu.pair.hit_units;
-}
-}
-, {"rtu.pair.entries", [](sim::Config& c) -> auto& {return c.rtu.pair.entries;
-}
-}
-, {"l1.latency_cycles", [](sim::Config& c) -> auto& {return c.l1.latency_cycles;
-}
-}
-,
-}
-;
 
 // So the defaults are read off the RTL: no other number gives its cycles. Memory is fast, or it would hide
 // them.
@@ -180,15 +156,75 @@ TEST(RtuTiming, IsThatOfTheDefaultMachineAndOfNoNumberBesideIt) {
     };
     const std::uint64_t expected = rtl::run_rtl(scene.image, rays.rays, rays.ray_kind, config).cycles;
     ASSERT_EQ(cycles(test::simulated(config)), expected);
-    for (const Number& number : timing_numbers) {
+    for (const std::string_view name : timing_numbers) {
         for (const int step : {-1, 1}) {
             sim::Config other = test::simulated(config);
-            if (number.of(other) == 1 && step < 0) continue;
-            number.of(other) += std::uint32_t(step);
-            EXPECT_NE(cycles(other), expected) << number.key << " = " << number.of(other);
+            if (number(other, name) == 1 && step < 0) continue;
+            number(other, name) += std::uint32_t(step);
+            EXPECT_NE(cycles(other), expected) << name << " = " << number(other, name);
         }
     }
 }
+
+// Long thin triangles under spatial splits: three leaves and more refer to each pair.
+const RtuScene& split_needles() {
+    static const RtuScene scene(
+        test::needles(600, 3, {0, 0, 0}),
+        {.width = 4, .splits = model::SplitKind::Spatial, .split_budget_percent = 200});
+    return scene;
+}
+
+// Through the middle of a triangle each, from anywhere around.
+model::Workload needle_rays(const model::TriangleMesh& mesh, std::uint32_t count, model::RayKind kind) {
+    test::Random random(7);
+    model::Workload workload;
+    workload.ray_kind = kind;
+    for (std::uint32_t i = 0; i < count * ray_scale(); ++i) {
+        const model::Triangle& triangle = mesh.triangles[random.below(std::uint32_t(mesh.triangles.size()))];
+        model::Vec3 middle;
+        for (const std::uint32_t corner : triangle) middle = middle + mesh.positions[corner] * (1.0F / 3);
+        const model::Vec3 origin = random.point(-2, 2);
+        workload.rays.push_back({origin, 0, middle - origin, std::numeric_limits<float>::infinity()});
+    }
+    return workload;
+}
+
+struct MailboxCase {
+    std::string name;
+    model::RayKind kind = model::RayKind::ClosestHit;
+    RtlConfig config{};
+};
+
+void PrintTo(const MailboxCase& c, std::ostream* out) { *out << c.name; }
+
+class RtuMailbox : public testing::TestWithParam<MailboxCase> {};
+
+TEST_P(RtuMailbox, GivesTheHitsAndLookUpsAndCyclesOfTheSimulator) {
+    const RtuScene& scene = split_needles();
+    ASSERT_GT(scene.image.reference_count, 2 * scene.image.pair_count);
+    compare(GetParam().config, scene, needle_rays(scene.mesh, 500, GetParam().kind), 0.1);
+}
+
+std::vector<MailboxCase> mailbox_cases() {
+    using enum model::RayKind;
+    return {
+        {"none", ClosestHit, {.slots = 64}},
+        {"one_entry", ClosestHit, {.slots = 64, .mailbox_entries = 1}},
+        {"four_entries", ClosestHit, {.slots = 64, .mailbox_entries = 4}},
+        {"five_entries_any_hit", AnyHit, {.slots = 64, .mailbox_entries = 5}},
+        {"sixteen_entries", ClosestHit, {.slots = 128, .mailbox_entries = 16}},
+        {"one_slot", ClosestHit, {.slots = 1, .mailbox_entries = 16}},
+        {"stack_of_one", ClosestHit, {.slots = 64, .stack_entries = 1, .mailbox_entries = 16}},
+        {"stack_of_two_any_hit", AnyHit, {.slots = 16, .stack_entries = 2, .mailbox_entries = 8}},
+        {"stack_of_four", ClosestHit, {.slots = 128, .stack_entries = 4, .mailbox_entries = 16}},
+        {"tiny_cache",
+         ClosestHit,
+         {.slots = 16, .stack_entries = 2, .mailbox_entries = 16, .cache = tiny_cache}},
+    };
+}
+
+INSTANTIATE_TEST_SUITE_P(OnNeedles, RtuMailbox, testing::ValuesIn(mailbox_cases()),
+                         [](const auto& test) { return test.param.name; });
 
 class RtuOnScene : public testing::TestWithParam<std::string> {};
 
@@ -222,6 +258,23 @@ TEST(RtuUnderPressure, LosesNothing) {
             rtl::run_rtl(scene.image, workload.rays, workload.ray_kind, config, nullptr, &disturbance);
         expect_same_hits(rtl, simulated);
         EXPECT_EQ(rtl.counts, simulated.counts);
+        EXPECT_EQ(rtl.spilled_entries, scheduler_counter(simulated, "spilled_entries"));
+    }
+}
+
+TEST(RtuUnderPressure, PassesNoLeafOverThatItShouldNot) {
+    const RtuScene& scene = split_needles();
+    const model::Workload workload = needle_rays(scene.mesh, 200, model::RayKind::ClosestHit);
+    const RtlConfig config{.slots = 48, .stack_entries = 2, .mailbox_entries = 16, .cache = tiny_cache};
+    const auto simulated =
+        sim::simulate(test::simulated(config), scene.image, workload.rays, workload.ray_kind);
+    for (const std::uint64_t seed : {1, 2}) {
+        const rtl::Disturbance disturbance{.seed = seed, .hesitates = true};
+        const RtlResult rtl =
+            rtl::run_rtl(scene.image, workload.rays, workload.ray_kind, config, nullptr, &disturbance);
+        expect_same_hits(rtl, simulated);
+        EXPECT_EQ(rtl.counts.pair_tests, simulated.counts.pair_tests);
+        EXPECT_EQ(rtl.counts.mailbox_hits, simulated.counts.mailbox_hits);
         EXPECT_EQ(rtl.spilled_entries, scheduler_counter(simulated, "spilled_entries"));
     }
 }
@@ -271,8 +324,10 @@ TEST(RtuRefuses, WhatItCannotBe) {
     const model::MemoryImage& image = builtin(4).image;
     EXPECT_TRUE(rtl::has_build({}));
     EXPECT_FALSE(rtl::has_build({.width = 6}));
+    EXPECT_TRUE(rtl::has_build({.mailbox_entries = 16}));
+    EXPECT_FALSE(rtl::has_build({.width = 2, .mailbox_entries = 1}));
     EXPECT_EQ(error_of(image, {.width = 6}),
-              "rtl: an RTU of width 6, pair mode 2 and 8 hit units was not built");
+              "rtl: an RTU of width 6, pair mode 2, 8 hit units and 0 mailbox entries was not built");
     EXPECT_EQ(error_of(image, {.slots = 0}), "rtl: slots: expected a number from 1 to 128, got 0");
     EXPECT_EQ(error_of(image, {.stack_entries = 17}),
               "rtl: stack entries: expected a number from 1 to 16, got 17");

@@ -232,6 +232,22 @@ TEST(AreaReport, AddsUpTheWorkloadsOfAScene) {
     EXPECT_EQ(scene_rate(report, "elsewhere", PairMode::Single, &AreaRow::mrps), 0);
 }
 
+TEST(MailboxArea, IsWhatWasCountedAndLinearBetween) {
+    const auto with = [](std::uint32_t entries) {
+        return total(rtu_area(config_with({fmt::format("rtu.mailbox.entries={}", entries)})));
+    };
+    const AreaTotal none = with(0);
+    const double passing = 2 * gate_counts("held_stack:Width=4:Row=19").gates +
+                           gate_counts("multi_fifo:Width=7:Depth=8:Push=2:Pop=2").gates +
+                           gate_counts("result_select:Passes=1").gates - gate_counts("result_select").gates;
+    for (const std::uint32_t entries : {1U, 2U, 4U, 8U, 16U}) {
+        const double counted = gate_counts(fmt::format("mailbox:Entries={}", entries)).gates;
+        EXPECT_NEAR(with(entries).gates.gates - none.gates.gates, counted + passing, 1e-6) << entries;
+    }
+    EXPECT_NEAR(with(6).gates.gates, (with(4).gates.gates + with(8).gates.gates) / 2, 1e-6);
+    EXPECT_NEAR(with(4).sram_bits - none.sram_bits, 128 * (4 * 28 + 2 + 1), 1e-6);
+}
+
 TEST(AreaReport, SaysTheSameAsTextJsonAndCsv) {
     AreaOptions options = builtin_options();
     options.scenes.clear();
