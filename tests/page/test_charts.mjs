@@ -76,8 +76,16 @@ async function checkWidthsAndPaper(page, folder) {
     const [wide, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
     assert.ok(wide <= inner, `${wide} px of page in a window of ${inner}`);
     await page.setViewportSize({width: 1100, height: 900});
-    const pdf = await page.pdf({path: path.join(folder, "page.pdf"), format: "A4"});
-    assert.ok(pdf.length > 50_000, "the charts are on paper");
+    await page.emulateMedia({media: "print"});
+    await settled(page);
+    const flat = await page.evaluate(() => views.filter(view => view.div.getBoundingClientRect().height < 100).length);
+    assert.equal(flat, 0, "charts have their height on paper");
+    await page.emulateMedia({media: "screen"});
+    await page.evaluate(() => window.addEventListener("beforeprint", () => {
+        window.printed = views.map(view => view.chart.getWidth());
+    }));
+    await page.pdf({path: path.join(folder, "page.pdf"), format: "A4"});
+    assert.ok((await page.evaluate(() => window.printed)).every(width => width <= 700), "and the width of a page");
 }
 
 await withBrowser(async ({browser, folder, rtusim}) => {

@@ -13,13 +13,13 @@ const sizes = new ResizeObserver(entries => {
 
 // `option` returns what is drawn, `tip` an element about a mark, or null for a mark without one.
 class ChartView {
-    constructor({title, note, height, option, tip, isLarge = false, withDetails = null}) {
+    constructor({title, note, height, least = 0, option, tip, isLarge = false, withDetails = null}) {
         this.option = option;
         this.tip = tip;
         this.isLarge = isLarge;
         this.chart = null;
         this.at = -1;
-        this.div = element("div", {class: "chart", tabindex: "0", role: "img", style: `height:${height}px`,
+        this.div = element("div", {class: "chart", tabindex: "0", role: "img", style: `height:${height}px;min-width:${least}px`,
             "aria-label": `${title}. ${note} Arrow keys go through its marks.`});
         this.div.view = this;
         this.said = element("span", {class: "said", "aria-live": "polite"});
@@ -47,7 +47,19 @@ class ChartView {
         this.chart.setOption(option, {notMerge: true});
     }
 
-    resize(width) { this.chart?.resize(width ? {width} : {width: "auto"}); }
+    // A resized chart is painted in the next frame, which on paper never comes: setting its option paints at once.
+    resize(width = this.div.clientWidth) {
+        if (!this.chart || this.chart.getWidth() === width) return;
+        this.chart.resize({width});
+        this.redraw();
+    }
+
+    // A canvas with thousands of cells comes out of a printer empty; a picture of it does not.
+    toPaper() {
+        if (!this.isLarge || !this.chart) return;
+        this.picture ??= this.div.appendChild(element("img", {class: "paper", alt: ""}));
+        this.picture.src = this.chart.getDataURL({pixelRatio: 2, backgroundColor: "#ffffff"});
+    }
 
     marks() {
         return this.chart.getOption().series.flatMap((series, seriesIndex) => (series.data ?? [])
@@ -90,12 +102,12 @@ function heatFigure(map) {
         map.greatest[i]];
     const order = map.greatest.map((_, i) => i).sort((a, b) => map.greatest[b] - map.greatest[a] || a - b);
     const shown = Math.min(order.length, 100);
-    const width = Math.min(document.documentElement.clientWidth - 80, 960);
+    const width = Math.min(openedWidth, 960);
     const view = new ChartView({
         title: map.title,
         note: `A cell is ${side}; its colour is the mean. Drag the ends of the scale to see a range only.`,
         height: Math.max(120, Math.round(width * map.rows / map.columns)) + 50,
-        option: () => heatOption(map),
+        option: () => heatOption(map, view.chart.getWidth(), view.chart.getHeight()),
         tip: mark => rowTip(columns, row(mark.dataIndex)),
         isLarge: true,
         withDetails: tableDetails(columns, () => order.slice(0, shown).map(row), `The ${shown} greatest cells.`),
@@ -106,7 +118,7 @@ function heatFigure(map) {
 window.addEventListener("beforeprint", () => {
     views.forEach(view => view.draw());
     setPrinting(true);
-    views.forEach(view => view.resize(680));
+    views.forEach(view => { view.resize(680); view.toPaper(); });
 });
 window.addEventListener("afterprint", () => {
     setPrinting(false);

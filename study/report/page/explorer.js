@@ -108,7 +108,7 @@ function chooser(label, fields, chosen, changed) {
 
 function isWide(field) {
     const low = field.distinct[0], high = field.distinct.at(-1);
-    return field.isNumber && low > 0 && high / low >= 32;
+    return field.is_parameter && field.isNumber && low > 0 && high / low >= 32;
 }
 
 function pointAxis(field, extra) {
@@ -140,7 +140,7 @@ class Explorer {
         this.axes = this.parallelAxes();
         this.parallel = new ChartView({title: `${title}: parallel coordinates`,
             note: "A line is a point. Drag along an axis to select; the chart above then shows the selected points.",
-            height: 380, option: () => this.parallelOption(), isLarge: true, tip: () => null});
+            height: 380, least: 84 * this.axes.length, option: () => this.parallelOption(), isLarge: true, tip: () => null});
         const choose = element("div", {class: "choose"}, this.x.box, this.y.box, this.color.box);
         const filters = element("div", {class: "filters", role: "group", "aria-label": "Filters"},
             ...this.filters.map(filter => filter.box));

@@ -13,8 +13,11 @@ function seriesOf(chart) {
         [name, chart.values[0], all.filter(i => chart.rows[i][chart.group] === name)]);
 }
 
+// Pixels that a chart has across when the page is opened.
+const openedWidth = Math.min(document.documentElement.clientWidth - 80, 1070);
+
 function isSideways(chart, categories) {
-    return categories.length > 4 && categories.join("  ").length > 110;
+    return categories.length > 2 && categories.join("  ").length * 8 > openedWidth - 60;
 }
 
 function barHeight(chart) {
@@ -44,7 +47,7 @@ function barOption(chart) {
     });
     const category = axis({type: "category", data: categories, inverse: sideways, splitLine: {show: false}});
     category.axisLabel = {...category.axisLabel, interval: 0, hideOverlap: false,
-        width: sideways ? 240 : Math.floor(800 / categories.length), overflow: sideways ? "truncate" : "break"};
+        width: sideways ? Math.min(240, openedWidth / 3) : Math.floor((openedWidth - 80) / categories.length), overflow: sideways ? "truncate" : "break"};
     const value = axis({type: chart.y_log ? "log" : "value", name: chart.y_title, scale: chart.y_log});
     if (chart.kind === "stack" && chart.y_title.startsWith("%")) value.max = 100;
     if (!sideways) value.nameGap = 46;
@@ -94,12 +97,15 @@ function matrixOption(chart) {
         series: [{type: "heatmap", name: chart.y_title, data}]};
 }
 
-function heatOption(map) {
+function heatOption(map, width, height) {
+    // Whole pixels, where there is room for them: else cells have seams.
+    const side = Math.floor(Math.min(width / map.columns, (height - 50) / map.rows));
+    const size = side < 1 ? {right: 0, bottom: 50} : {width: side * map.columns, height: side * map.rows};
     const data = map.mean.map((value, i) => [i % map.columns, Math.floor(i / map.columns), value]);
     const hidden = {type: "category", show: false};
     const greatest = map.mean.reduce((a, b) => Math.max(a, b), 0);
     return {...baseOption(), legend: {show: false},
-        grid: {left: 0, right: 0, top: 0, bottom: 50},
+        grid: {left: 0, top: 0, ...size},
         xAxis: {...hidden, data: Array.from({length: map.columns}, (_, i) => i)},
         yAxis: {...hidden, inverse: true, data: Array.from({length: map.rows}, (_, i) => i)},
         visualMap: {min: 0, max: greatest || 1, calculable: true, orient: "horizontal", left: "center", bottom: 0,
