@@ -21,6 +21,7 @@
 #include "apps/methods_command.hpp"
 #include "apps/pairing_command.hpp"
 #include "apps/precision_command.hpp"
+#include "apps/report_command.hpp"
 #include "apps/run_command.hpp"
 #include "apps/stability_command.hpp"
 #include "apps/standard_output.hpp"
@@ -59,6 +60,7 @@ constexpr const char* footer =
     "  rtusim validate                         hits, counts and cycles against the RTL reference\n"
     "  rtusim stream                           rays and triangles over a host link, without a BVH\n"
     "  rtusim timeline --json t.json           what units and rays do in each cycle, for Perfetto\n"
+    "  rtusim report run.json --html run.html  one page with findings and charts of results\n"
     "  rtusim config --preset default          every parameter with unit, meaning and source\n\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 failed check or internal error.";
 
@@ -124,6 +126,7 @@ int run_cli(int argc, char** argv) {
     add_validate_command(app, command);
     add_stream_command(app, command);
     add_timeline_command(app, command);
+    add_report_command(app, command);
     add_config_command(app, command);
     return guarded([&] {
         try {

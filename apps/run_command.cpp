@@ -14,6 +14,7 @@
 #include "apps/run_plan.hpp"
 #include "apps/standard_output.hpp"
 #include "study/chart/picture.hpp"
+#include "study/chart/pixel_json.hpp"
 #include "study/fidelity/fidelity_output.hpp"
 #include "study/output_file.hpp"
 #include "study/report/report_csv.hpp"
@@ -56,10 +57,11 @@ void write_outputs(const RunPlan& plan, const std::vector<study::SceneReport>& r
         for (const study::SceneReport& report : reports) {
             const study::PixelData& pixels = report.pixels.value();
             const auto path = [&](const char* kind) {
-                return *plan.image_folder / fmt::format("{}_{}.png", report.scene.name, kind);
+                return *plan.image_folder / fmt::format("{}_{}", report.scene.name, kind);
             };
-            files.push_back({path("normal"), to_png(normal_picture(pixels))});
-            files.push_back({path("box_tests"), to_png(heat_map(pixels))});
+            files.push_back({path("normal.png"), to_png(normal_picture(pixels))});
+            files.push_back({path("box_tests.png"), to_png(heat_map(pixels))});
+            files.push_back({path("box_tests.json"), study::box_tests_json(report.scene.name, pixels)});
         }
     }
     study::write_files(files);

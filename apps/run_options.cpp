@@ -63,7 +63,8 @@ void add_output_options(CLI::App& run, RunArguments& arguments) {
         ->type_name("FILE")
         ->check(is_not_empty());
     run.add_option("--image", arguments.image_folder,
-                   "write SCENE_normal.png and SCENE_box_tests.png there; made if missing")
+                   "write SCENE_normal.png and SCENE_box_tests.png there, and SCENE_box_tests.json "
+                   "for\n`rtusim report`; made if missing")
         ->type_name("DIR")
         ->check(is_not_empty());
     run.add_flag(

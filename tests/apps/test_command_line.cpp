@@ -59,6 +59,9 @@ TEST_F(CommandLine, WritesEveryKindOfOutput) {
     for (const char* name : {"pictures/new/ball_normal.png", "pictures/new/ball_box_tests.png"}) {
         EXPECT_THAT(content(name), StartsWith("\x89PNG")) << name;
     }
+    const Json pixels = Json::parse(content("pictures/new/ball_box_tests.json"));
+    EXPECT_EQ(pixels["scene"], "ball");
+    EXPECT_EQ(pixels["box_tests"].size(), 16U * 16U);
 }
 
 TEST_F(CommandLine, SeveralScenesGiveAnArrayAndAnOverview) {

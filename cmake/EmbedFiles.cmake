@@ -1,0 +1,23 @@
+# rtu_embed_files(TARGET NAME=FILE|FILE|... NAME=...): for each NAME the bytes of its files, one after another, between
+# the symbols NAME and NAME_end of an object of TARGET. A literal of a million characters takes the compiler seconds;
+# the assembler copies it.
+function(rtu_embed_files target)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}_files.S)
+  set(text "    .section .rodata\n")
+  set(all "")
+  foreach(entry IN LISTS ARGN)
+    string(REGEX MATCH "^([^=]+)=(.*)$" _ "${entry}")
+    set(name ${CMAKE_MATCH_1})
+    string(REPLACE "|" ";" files "${CMAKE_MATCH_2}")
+    string(APPEND text "    .global ${name}, ${name}_end\n${name}:\n")
+    foreach(file IN LISTS files)
+      string(APPEND text "    .incbin \"${file}\"\n")
+      list(APPEND all ${file})
+    endforeach()
+    string(APPEND text "${name}_end:\n    .byte 0\n")
+  endforeach()
+  string(APPEND text "    .section .note.GNU-stack,\"\",%progbits\n")
+  file(GENERATE OUTPUT ${source} CONTENT "${text}")
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${all}" GENERATED TRUE)
+  target_sources(${target} PRIVATE ${source})
+endfunction()
