@@ -15,6 +15,7 @@
 #include "model/error.hpp"
 #include "study/output_file.hpp"
 #include "study/sweep/sweep_export.hpp"
+#include "study/sweep/sweep_figures.hpp"
 #include "study/sweep/sweep_run.hpp"
 #include "study/sweep/sweep_text.hpp"
 
@@ -43,6 +44,7 @@ constexpr const char* footer =
     "  rtusim sweep boxes.toml                        into boxes.db\n"
     "  sqlite3 boxes.db 'SELECT scene, \"l1.size_bytes\", mrps FROM results WHERE workload = \"total\"'\n"
     "  rtusim sweep boxes.toml --csv boxes.csv --front front.json\n"
+    "  rtusim sweep docs/explorations/units.toml --scenes scenes --charts pictures\n"
     "  rtusim sweep boxes.toml --executor slurm --sbatch=--time=1:00:00\n";
 
 struct SweepArguments {
@@ -52,7 +54,8 @@ struct SweepArguments {
     std::string executor = "local";
     unsigned workers = 0;
     bool retries_failed = false;
-    std::string csv, json, columns, front;
+    std::string csv, json, columns, points, front;
+    std::string scenes, charts;  ///< folders; empty: none
     std::uint32_t points_per_task = 0;
     std::vector<std::string> sbatch_options;
     double poll_seconds = 5;
@@ -83,29 +86,47 @@ std::vector<fs::path> inputs_of(const SweepArguments& arguments, const study::Sw
 void check_outputs(const SweepArguments& arguments, const study::SweepOptions& options,
                    const study::SweepFile& file) {
     std::vector<fs::path> taken = inputs_of(arguments, file);
-    for (const std::string& name :
-         {options.database.string(), arguments.csv, arguments.json, arguments.columns, arguments.front}) {
+    for (const std::string& name : {options.database.string(), arguments.csv, arguments.json,
+                                    arguments.columns, arguments.points, arguments.front}) {
         if (name.empty()) continue;
         check_output(name, taken);
         taken.emplace_back(name);
     }
+    if (arguments.charts.empty()) return;
+    if (file.charts.empty()) throw Error("--charts: {} asks for no chart", arguments.file);
+    study::check_writable_folder(arguments.charts);
+    study::check_gnuplot();
 }
 
-void write_exports(const SweepArguments& arguments, const study::SweepPlan& plan,
-                   const study::SweepOptions& options, const study::SweepOutcome& outcome) {
+// Returns the tables of the charts.
+std::string write_exports(const SweepArguments& arguments, const study::SweepPlan& plan,
+                          const study::SweepOptions& options, const study::SweepOutcome& outcome) {
     const study::SweepDatabase database(options.database, study::SqlDatabase::Mode::ReadOnly);
     std::vector<study::OutputFile> files;
     if (!arguments.csv.empty()) files.push_back({arguments.csv, study::sweep_csv(database.sql())});
     if (!arguments.json.empty()) files.push_back({arguments.json, study::sweep_json(database.sql())});
     if (!arguments.columns.empty())
         files.push_back({arguments.columns, study::sweep_columns(database.sql())});
+    if (!arguments.points.empty())
+        files.push_back({arguments.points, study::sweep_points_csv(database.sql())});
     if (!arguments.front.empty()) files.push_back({arguments.front, study::front_json(plan, outcome)});
+    std::string tables;
+    for (const study::SweepChart& chart : plan.file.charts) {
+        const auto figures = study::sweep_figures(database.sql(), chart);
+        tables += "\n" + study::sweep_figure_table(chart, figures);
+        if (arguments.charts.empty()) continue;
+        const study::AnyChart picture = study::sweep_picture(chart, figures);
+        files.push_back({fs::path(arguments.charts) / (chart.name + ".svg"),
+                         study::draw(picture, study::ChartFormat::Svg)});
+    }
     study::write_files(files);
+    return tables;
 }
 
 int sweep(const SweepArguments& arguments) {
     study::remove_temporaries_on_interrupt();
-    const study::SweepPlan plan = study::make_sweep_plan(study::read_sweep_file(arguments.file));
+    const study::SweepPlan plan =
+        study::make_sweep_plan(study::read_sweep_file(arguments.file, arguments.scenes));
     study::SweepOptions options = options_of(arguments, plan);
     check_outputs(arguments, options, plan.file);
     if (arguments.is_dry_run) {
@@ -118,8 +139,8 @@ int sweep(const SweepArguments& arguments) {
         options.progress = [&](const study::SweepProgress& progress) { line.show(progress); };
         outcome = study::run_sweep(plan, options);
     }
-    write_exports(arguments, plan, options, outcome);
-    print_all(study::sweep_text(plan, outcome, options.database.string()));
+    const std::string tables = write_exports(arguments, plan, options, outcome);
+    print_all(study::sweep_text(plan, outcome, options.database.string()) + tables);
     if (outcome.failures.empty()) return exit_done;
     print_error(fmt::format("{} points failed: see the report", outcome.failures.size()));
     return exit_internal;
@@ -132,8 +153,17 @@ void add_output_options(CLI::App& app, SweepArguments& arguments) {
     add("--output", arguments.database, "the database; default: the sweep file's name with .db, here");
     add("--csv", arguments.csv, "write all rows as CSV");
     add("--json", arguments.json, "write all rows as JSON");
-    add("--columns", arguments.columns, "write all rows as typed columns, for Parquet");
+    add("--points", arguments.points, "write one row a point as CSV: flat columns of one type each");
+    add("--columns", arguments.columns, "write the same as typed columns, for Parquet");
     add("--front", arguments.front, "write the Pareto front as JSON");
+    app.add_option("--charts", arguments.charts,
+                   "write the charts of the sweep file as SVG there; made if missing (needs gnuplot)")
+        ->type_name("DIR")
+        ->check(is_not_empty());
+    app.add_option("--scenes", arguments.scenes,
+                   "where files that the sweep file names are looked for, when they are not beside it")
+        ->type_name("DIR")
+        ->check(CLI::ExistingDirectory);
 }
 
 void add_executor_options(CLI::App& app, SweepArguments& arguments) {

@@ -58,6 +58,7 @@ std::string group_tics(const Chart& chart) {
 std::string bars(const Chart& chart) {
     const double bar = 0.8 / double(chart.series.size());
     std::string data, plots;
+    std::string spans;
     std::vector<std::pair<double, double>> marks;
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
         const double shift = (double(i) - 0.5 * double(chart.series.size() - 1)) * bar;
@@ -72,8 +73,12 @@ std::string bars(const Chart& chart) {
             "{}$series{} using 1:2:({}) title {} with boxes fillstyle solid noborder linecolor rgb '{}'",
             i == 0 ? "" : ", ", i, bar * 0.92, in_quotes(chart.series[i].name),
             colours[chart.series[i].colour % colours.size()]);
+        if (chart.series[i].spans.empty()) continue;
+        const std::string name = fmt::format("spans{}", i);
+        data += span_block(name, shifted(chart.series[i].points), chart.series[i].spans);
+        spans += span_plot(name, "black");
     }
-    plots += ", 0 notitle with lines linewidth 1 linecolor rgb '#808080'";
+    plots += spans + ", 0 notitle with lines linewidth 1 linecolor rgb '#808080'";
     if (!marks.empty()) {
         data += data_block("marks", marks);
         plots += fmt::format(

@@ -20,6 +20,8 @@ struct ChartSeries {
     std::vector<std::pair<double, double>> marks;  ///< bars: a value beside it, drawn as a diamond
     /// Which of the six of the palette; beyond it they repeat, lines with other dashes and points.
     std::size_t colour = 0;
+    /// [points.size()] or empty: the least and the greatest y of each point, drawn as a thin bar.
+    std::vector<std::pair<double, double>> spans = {};
 };
 
 /// A chart of lines or, when there are groups, of bars. Text may hold anything; control characters are shown

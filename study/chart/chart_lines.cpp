@@ -103,6 +103,9 @@ std::string line_plot(const Chart& chart, std::string_view prefix, double y_most
         data += data_block(block, drawn_points(chart, series, x));
         plots += fmt::format("{}${} using 1:2 title {} {}", i == 0 ? "" : ", ", block, in_quotes(series.name),
                              style(chart, series));
+        if (series.spans.empty()) continue;
+        data += span_block(block + "spans", series.points, series.spans);
+        plots += span_plot(block + "spans", colours[series.colour % colours.size()]);
     }
     return data + x_axis(chart, x) +
            (chart.y_floor ? decimal_axis_with_zero("y", *chart.y_floor, *chart.y_floor / 1.4, y_most * 1.6)

@@ -32,6 +32,23 @@ std::string data_block(std::string_view name, const std::vector<std::pair<double
     return out + "END\n";
 }
 
+std::string span_block(std::string_view name, const std::vector<std::pair<double, double>>& points,
+                       const std::vector<std::pair<double, double>>& spans) {
+    std::string out = fmt::format("${} << END\n", name);
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        const auto& [least, most] = spans[i];
+        if (least < most) out += fmt::format("{} {} {}\n", points[i].first, least, most - least);
+    }
+    return out + "END\n";
+}
+
+std::string span_plot(std::string_view name, std::string_view colour) {
+    return fmt::format(
+        ", ${} using 1:2:(0):3 notitle with vectors heads size screen 0.003,90 linewidth 1 linecolor rgb "
+        "'{}'",
+        name, colour);
+}
+
 std::string terminal(ChartFormat format, PixelSize size, std::string_view name) {
     if (format == ChartFormat::Png) {
         return fmt::format("set terminal pngcairo noenhanced background 'white' size {},{} font 'sans,12'\n",

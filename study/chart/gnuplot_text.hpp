@@ -29,6 +29,14 @@ struct PixelSize {
 [[nodiscard]] std::string data_block(std::string_view name,
                                      const std::vector<std::pair<double, double>>& points);
 
+/// The same with an interval of y at each point.
+[[nodiscard]] std::string span_block(std::string_view name,
+                                     const std::vector<std::pair<double, double>>& points,
+                                     const std::vector<std::pair<double, double>>& spans);
+
+/// The part of a plot command that draws such a block, without an entry in the legend.
+[[nodiscard]] std::string span_plot(std::string_view name, std::string_view colour);
+
 /// The first line of a script; ids within an SVG begin with `name`.
 [[nodiscard]] std::string terminal(ChartFormat format, PixelSize size, std::string_view name);
 

@@ -38,14 +38,17 @@ constexpr std::uint32_t guessed_row_length = 1024;  // of rays whose file names 
 
 class StoredPopulation final : public RayPopulation {
   public:
-    StoredPopulation(std::string name, model::RayKind kind) : name_(std::move(name)), kind_(kind) {}
+    StoredPopulation(std::string name, model::RayKind kind, std::optional<std::uint32_t> rows)
+        : name_(std::move(name)), kind_(kind), rows_(rows) {}
 
     void add(std::span<const model::Ray> rays) { rays_.insert(rays_.end(), rays.begin(), rays.end()); }
 
     [[nodiscard]] const std::string& name() const override { return name_; }
     [[nodiscard]] model::RayKind kind() const override { return kind_; }
     [[nodiscard]] std::uint32_t size() const override { return std::uint32_t(rays_.size()); }
-    [[nodiscard]] std::uint32_t row_length() const override { return guessed_row_length; }
+    [[nodiscard]] std::uint32_t row_length() const override {
+        return rows_ ? std::max(1U, size() / *rows_) : guessed_row_length;
+    }
     [[nodiscard]] PopulationPart part(std::uint32_t begin, std::uint32_t end) const override {
         PopulationPart part{{rays_.begin() + begin, rays_.begin() + end}, {}};
         part.positions.resize(end - begin);
@@ -61,6 +64,7 @@ class StoredPopulation final : public RayPopulation {
   private:
     std::string name_;
     model::RayKind kind_;
+    std::optional<std::uint32_t> rows_;  // of the picture, when there is one
     std::vector<model::Ray> rays_;
 };
 
@@ -74,9 +78,11 @@ std::unique_ptr<RayPopulation> picture_population(model::WorkloadKind kind,
 std::vector<std::unique_ptr<RayPopulation>> file_populations(traces::RayReader& rays) {
     std::vector<std::unique_ptr<RayPopulation>> populations;
     StoredPopulation* last = nullptr;
+    std::optional<std::uint32_t> rows;
+    if (rays.header().picture) rows = rays.header().picture->resolution.height;
     for (std::optional<traces::RayChunk> chunk = rays.next(); chunk; chunk = rays.next()) {
         if (last == nullptr || last->name() != chunk->workload) {
-            auto next = std::make_unique<StoredPopulation>(chunk->workload, chunk->kind);
+            auto next = std::make_unique<StoredPopulation>(chunk->workload, chunk->kind, rows);
             last = next.get();
             populations.push_back(std::move(next));
         }

@@ -41,7 +41,8 @@ class RayPopulation {
 [[nodiscard]] std::unique_ptr<RayPopulation> picture_population(model::WorkloadKind kind,
                                                                 const model::WorkloadSetting& setting);
 
-/// The workloads of a file of rays, held in memory: a position is a ray. Throws Error as the reader does.
+/// The workloads of a file of rays, held in memory: a position is a ray, and where the file tells of a
+/// picture its rays are taken to be spread evenly over the rows. Throws Error as the reader does.
 [[nodiscard]] std::vector<std::unique_ptr<RayPopulation>> file_populations(traces::RayReader& rays);
 
 }  // namespace rtu::study

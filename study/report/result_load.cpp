@@ -70,7 +70,8 @@ ResultSet load_sweep(const fs::path& path) {
         result.inputs["version"] = about.text(3);
     }
     SqlStatement rows = database.sql().prepare(
-        "SELECT scene || ' ' || design || ' ' || workload, * FROM results WHERE number IS NOT NULL");
+        "SELECT scene || ' ' || design || ' ' || workload || iif(fidelity = 'cycle', '', ' ' || fidelity), *"
+        " FROM results WHERE number IS NOT NULL");
     while (rows.next()) {
         std::map<std::string, double>& numbers = result.rows[rows.text(0)];
         for (int i = 1; i < rows.column_count(); ++i) {

@@ -61,6 +61,11 @@ std::string SqlStatement::column_name(int column) const {
     return sqlite3_column_name(statement_.get(), column);
 }
 
+std::string SqlStatement::column_type(int column) const {
+    const char* type = sqlite3_column_decltype(statement_.get(), column);
+    return type == nullptr ? std::string() : type;
+}
+
 std::int64_t SqlStatement::integer(int column) const {
     return sqlite3_column_int64(statement_.get(), column);
 }

@@ -35,6 +35,8 @@ class SqlStatement {
 
     [[nodiscard]] int column_count() const;
     [[nodiscard]] std::string column_name(int column) const;
+    /// The type that the column has in its table, as there; empty for an expression.
+    [[nodiscard]] std::string column_type(int column) const;
     [[nodiscard]] std::int64_t integer(int column) const;
     [[nodiscard]] double real(int column) const;
     [[nodiscard]] std::string text(int column) const;

@@ -1,6 +1,8 @@
 #include "study/sweep/sweep_database.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 
 #include "model/error.hpp"
 #include "sim/config_keys.hpp"
@@ -26,7 +28,9 @@ std::string placeholders(std::size_t count) {
 
 void add_designs(const SqlDatabase& database, const SweepPlan& plan) {
     SqlStatement insert = database.prepare(
-        fmt::format("INSERT OR IGNORE INTO design VALUES({})", placeholders(4 + sim::config_keys().size())));
+        fmt::format("INSERT INTO design VALUES({}) ON CONFLICT(id) DO UPDATE SET mgates = excluded.mgates, "
+                    "sram_mbits = excluded.sram_mbits",
+                    placeholders(6 + sim::config_keys().size())));
     for (const SweepDesign& design : plan.designs) {
         insert.bind(1, design.id).bind(2, design.preset).bind(3, to_string(design.pairing));
         insert.bind(4, model::to_string(plan.file.edge_identity));
@@ -39,21 +43,28 @@ void add_designs(const SqlDatabase& database, const SweepPlan& plan) {
                 insert.bind(parameter++, std::get<std::string_view>(value));
             }
         }
+        const DesignArea area = design_area(design.config);
+        insert.bind(parameter, area.mgates).bind(parameter + 1, area.sram_mbits);
         insert.run();
     }
 }
 
-void add_points(const SqlDatabase& database, const SweepPlan& plan) {
-    database.execute("UPDATE point SET number = NULL WHERE number IS NOT NULL");
+void insert_points(const SqlDatabase& database, const SweepPlan& plan, std::span<const std::size_t> points) {
     SqlStatement insert = database.prepare(
-        "INSERT INTO point(id, number, design, scene, scene_hash, rays, fidelity, version)"
-        " VALUES(?, ?, ?, ?, ?, ?, 'cycle', ?)"
+        "INSERT INTO point(id, number, design, scene, scene_hash, rays, fidelity, tolerance, version)"
+        " VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)"
         " ON CONFLICT(id) DO UPDATE SET number = excluded.number, scene = excluded.scene");
-    std::int64_t number = 0;
-    for (const SweepPoint& point : plan.points) {
+    for (const std::size_t index : points) {
+        const SweepPoint& point = plan.points[index];
         const SweepScene& scene = plan.scenes[point.scene];
-        insert.bind(1, point.id).bind(2, number++).bind(3, plan.designs[point.design].id);
-        insert.bind(4, scene.name).bind(5, scene.hash).bind(6, scene.rays).bind(7, version());
+        insert.bind(1, point.id).bind(2, std::int64_t(index)).bind(3, plan.designs[point.design].id);
+        insert.bind(4, scene.name).bind(5, scene.hash).bind(6, scene.rays);
+        insert.bind(7, to_string(point.level)).bind(9, version());
+        if (uses_tolerance(point.level)) {
+            insert.bind(8, 100 * plan.file.tolerance);
+        } else {
+            insert.bind_null(8);
+        }
         insert.run();
     }
 }
@@ -66,7 +77,7 @@ class Importer {
           finish_(database.prepare(
               "UPDATE point SET status = ?, error = nullif(?, ''), paired_percent = ? WHERE id = ?")),
           row_(database.prepare(
-              fmt::format("INSERT INTO result VALUES({})", placeholders(2 + sweep_counts().size())))),
+              fmt::format("INSERT INTO result VALUES({})", placeholders(5 + sweep_counts().size())))),
           host_(database.prepare("INSERT INTO host VALUES(?, 1, ?) ON CONFLICT(point) DO UPDATE SET"
                                  " completions = completions + 1")) {}
 
@@ -85,15 +96,26 @@ class Importer {
         }
         finish_.run();
         for (const SweepRow& row : result.rows) {
-            row_.bind(1, result.point).bind(2, row.workload);
-            int parameter = 3;
-            for (const std::uint64_t count : row.counts) row_.bind(parameter++, std::int64_t(count));
+            row_.bind(1, result.point).bind(2, row.workload).bind(3, row.level).bind(4, row.cycles_low);
+            bind(5, row.cycles_high);
+            int parameter = 6;
+            for (const auto& count : row.counts)
+                bind(parameter++, count ? std::optional(std::int64_t(*count)) : std::nullopt);
             row_.run();
         }
         return true;
     }
 
   private:
+    template <class Number>
+    void bind(int parameter, std::optional<Number> value) {
+        if (value) {
+            row_.bind(parameter, *value);
+        } else {
+            row_.bind_null(parameter);
+        }
+    }
+
     SqlStatement known_, finish_, row_, host_;
 };
 
@@ -136,8 +158,17 @@ void SweepDatabase::set_plan(const SweepPlan& plan) {
     for (const SweepObjective& objective : plan.file.objectives) objectives += objective.name() + '\n';
     about.bind(1, "objectives").bind(2, objectives).run();
     add_designs(database_, plan);
-    add_points(database_, plan);
+    database_.execute("UPDATE point SET number = NULL WHERE number IS NOT NULL");
+    std::vector<std::size_t> first(plan.scenes.size() * plan.designs.size());
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    insert_points(database_, plan, first);
     database_.execute("DELETE FROM front");
+    transaction.commit();
+}
+
+void SweepDatabase::add_points(const SweepPlan& plan, std::span<const std::size_t> points) {
+    SqlTransaction transaction(database_);
+    insert_points(database_, plan, points);
     transaction.commit();
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,11 @@ class SweepDatabase {
     /// one of another version.
     SweepDatabase(const std::filesystem::path& path, SqlDatabase::Mode mode);
 
-    /// Makes the plan's points the present ones: new ones wait, those that are known keep what they gave.
-    /// Points of earlier plans stay, without a number.
+    /// Makes the plan's points of the first pass the present ones: new ones wait, those that are known keep
+    /// what they gave. Points of earlier plans stay, without a number.
     void set_plan(const SweepPlan& plan);
+    /// Adds points of the second pass, as indices of the plan's points, to the present ones.
+    void add_points(const SweepPlan& plan, std::span<const std::size_t> points);
     /// Present points that failed wait once more.
     void retry_failed();
     /// The present points that wait, as indices of the plan's points.

@@ -10,6 +10,8 @@
 #include "model/fingerprint.hpp"
 #include "model/random.hpp"
 #include "sim/config_keys.hpp"
+#include "study/area/area_model.hpp"
+#include "study/area/area_objective.hpp"
 
 namespace rtu::study {
 namespace {
@@ -185,6 +187,10 @@ std::vector<SweepDesign> sweep_designs(const SweepFile& file) {
     if (designs.empty())
         throw Error("{}: expected a design that meets all constraints, found none", file.name);
     return designs;
+}
+
+DesignArea design_area(const sim::Config& config) {
+    return {machine_gates(config) / 1e6, total(rtu_area(config)).sram_bits * config.rtu.count / 1e6};
 }
 
 }  // namespace rtu::study

@@ -16,6 +16,13 @@ struct SweepDesign {
     std::vector<std::string> sets;  ///< KEY=VALUE of each key that differs from the preset
 };
 
+/// What a machine takes: all RTUs with their L1s, without the L2.
+struct DesignArea {
+    double mgates = 0;      ///< million NAND2 equivalents, as study/area counts them
+    double sram_mbits = 0;  ///< million bits in arrays of memory cells, which are in no gate count
+};
+[[nodiscard]] DesignArea design_area(const sim::Config& config);
+
 /// Every design of the grid presets x pairings x axes that meets all constraints, or the subset of them that
 /// the file asks for; in the order of the grid, the last axis fastest. Designs that are equal come once.
 /// Throws Error, with the file and line of a value of it, for a design that no machine can be; and when

@@ -36,6 +36,8 @@ class TemporaryFolder {
     fs::path path_;
 };
 
+bool is_simulated(const SweepPoint& point) { return point.level == FidelityLevel::Cycle; }
+
 double pixels(model::Resolution resolution) { return double(resolution.width) * resolution.height; }
 
 }  // namespace
@@ -51,12 +53,19 @@ SweepEstimate estimate_sweep(const SweepPlan& plan, unsigned workers) {
             const SweepPoint& point = plan.points[scene * designs + (2 * i + 1) * designs / (2 * samples)];
             RunOptions options = run_options(plan, point);
             const double all = options.rays ? 1.0 : pixels(options.resolution);
-            options.resolution = {std::min(options.resolution.width, sample_side),
-                                  std::min(options.resolution.height, sample_side)};
+            if (is_simulated(point)) {  // an estimate of few rays would take them all
+                options.resolution = {std::min(options.resolution.width, sample_side),
+                                      std::min(options.resolution.height, sample_side)};
+            }
             const double share = options.rays ? 1.0 : pixels(options.resolution) / all;
-            prepare_tree(options, plan.file.inputs[scene].scene, folder.path(), point.tree);
+            prepare_tree(options, plan.file.inputs[scene].scene, content_of(point), folder.path(),
+                         point.tree);
             const SweepTree tree(folder.path(), point.tree);
-            seconds += simulate_point(point.id, options.config, tree).cpu_seconds / share;
+            const SweepResult result = is_simulated(point)
+                                           ? simulate_point(point.id, options.config, tree)
+                                           : estimate_point(point.id, options.config, tree, point.level,
+                                                            {plan.file.tolerance, options.seed});
+            seconds += result.cpu_seconds / share;
             const std::uint64_t visits =
                 tree_memory_bytes(folder.path(), point.tree) - tree.image().size_bytes();
             estimate.worker_bytes =

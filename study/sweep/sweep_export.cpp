@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "study/csv.hpp"
+#include "study/sweep/sweep_table.hpp"
 
 namespace rtu::study {
 namespace {
@@ -36,11 +36,6 @@ Json json_value(const SqlValue& value) {
     if (const auto* real = std::get_if<double>(&value)) return *real;
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     return nullptr;
-}
-
-const char* type_name(const SqlValue& value) {
-    if (std::holds_alternative<std::int64_t>(value)) return "int64";
-    return std::holds_alternative<std::string>(value) ? "string" : "double";
 }
 
 std::string dump(const Json& json, int indent) {
@@ -73,20 +68,29 @@ std::string sweep_json(const SqlDatabase& database) {
 }
 
 std::string sweep_columns(const SqlDatabase& database) {
-    SqlStatement rows = all_rows(database);
-    std::vector<std::string> columns = names(rows);
-    for (std::string& name : columns) std::ranges::replace(name, '.', '_');
+    const SweepTable table = sweep_table(database);
     Json types = Json::object(), values = Json::object();
-    for (const std::string& name : columns) values[name] = Json::array();
-    while (rows.next()) {
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            const SqlValue value = rows.value(int(i));
-            values[columns[i]].push_back(json_value(value));
-            const bool is_null = std::holds_alternative<std::monostate>(value);
-            if (!is_null || !types.contains(columns[i])) types[columns[i]] = type_name(value);
-        }
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        const auto& [name, type] = table.columns[i];
+        types[name] = to_string(type);
+        Json column = Json::array();
+        for (const std::vector<SqlValue>& row : table.rows) column.push_back(json_value(row[i]));
+        values[name] = std::move(column);
     }
     return dump({{"types", types}, {"columns", values}}, -1);
+}
+
+std::string sweep_points_csv(const SqlDatabase& database) {
+    const SweepTable table = sweep_table(database);
+    std::vector<std::string> cells;
+    for (const SweepColumn& column : table.columns) cells.push_back(column.name);
+    std::string text = csv_line(cells);
+    for (const std::vector<SqlValue>& row : table.rows) {
+        cells.clear();
+        for (const SqlValue& value : row) cells.push_back(csv_text(value));
+        text += csv_line(cells);
+    }
+    return text;
 }
 
 }  // namespace rtu::study

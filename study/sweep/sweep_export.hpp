@@ -14,9 +14,11 @@ namespace rtu::study {
 /// A JSON array with an object for each row.
 [[nodiscard]] std::string sweep_json(const SqlDatabase& database);
 
-/// Columns for Parquet and the like: {"types": {NAME: "int64", "double" or "string"}, "columns": {NAME:
-/// [...]}}, with
-/// '_' for each '.' of a name, one type a column and null for what is missing.
+/// The sweep_table() for Parquet and the like: {"types": {NAME: "int64", "double" or "string"}, "columns":
+/// {NAME: [...]}}, with null for what is missing.
 [[nodiscard]] std::string sweep_columns(const SqlDatabase& database);
+
+/// The sweep_table() as CSV; what is missing is empty.
+[[nodiscard]] std::string sweep_points_csv(const SqlDatabase& database);
 
 }  // namespace rtu::study

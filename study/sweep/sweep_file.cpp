@@ -7,6 +7,7 @@
 #include "model/regular_file.hpp"
 #include "sim/presets.hpp"
 #include "study/sweep/sweep_axes.hpp"
+#include "study/sweep/sweep_chart_parser.hpp"
 #include "study/toml_reader.hpp"
 
 namespace rtu::study {
@@ -28,19 +29,21 @@ auto at(const std::string& place, F f) {
 
 class Parser {
   public:
-    Parser(std::string_view text, const fs::path& path)
-        : reader_(text, path.string()), path_(path), folder_(path.parent_path()) {}
+    Parser(std::string_view text, const fs::path& path, const fs::path& scenes)
+        : reader_(text, path.string()), path_(path), folder_(path.parent_path()), scenes_(scenes) {}
 
     SweepFile run() {
         const toml::table& root = reader_.root();
-        reader_.check_keys(
-            root, {"scenes", "workloads", "resolution", "camera", "seed", "edge_identity", "pairings",
-                   "presets", "fidelity", "objectives", "constraints", "subset", "set", "axes", "linked"});
+        reader_.check_keys(root, {"scenes", "workloads", "resolution", "camera", "seed", "edge_identity",
+                                  "pairings", "presets", "fidelity", "tolerance", "objectives", "constraints",
+                                  "subset", "set", "axes", "linked", "charts"});
         file_.name = path_.stem().string();
         read_inputs();
         read_rays();
         read_machines();
+        read_fidelity();
         read_space();
+        read_charts();
         return std::move(file_);
     }
 
@@ -71,7 +74,8 @@ class Parser {
     }
 
     [[nodiscard]] fs::path existing_file(const std::string& name, const std::string& place) const {
-        const fs::path path = folder_ / name;
+        fs::path path = folder_ / name;
+        if (!scenes_.empty() && !fs::exists(path)) path = scenes_ / name;
         at(place, [&] { return model::RegularFile(path).size_bytes(); });
         return path;
     }
@@ -83,21 +87,44 @@ class Parser {
         const toml::table* table = node.as_table();
         const toml::node* scene = &node;
         if (table != nullptr) {
-            reader_.check_keys(*table, {"scene", "rays", "format", "kind"});
+            reader_.check_keys(*table, {"scene", "rays", "format", "kind", "camera", "seed", "name"});
             scene = table->get("scene");
             if (scene == nullptr) throw Error("{}: expected {}, got no scene", result.place, expected);
         }
         const std::string name = reader_.text(*scene, expected);
         if (name != "builtin") result.scene.file = existing_file(name, result.place);
-        if (table != nullptr) result.rays = ray_input(*table, result.place);
+        if (table != nullptr) read_input_table(*table, result);
         return result;
     }
 
-    RayInput ray_input(const toml::table& table, const std::string& place) {
+    void read_input_table(const toml::table& table, SweepInput& result) {
+        const toml::node* camera = table.get("camera");
+        if (camera != nullptr) result.camera_file = existing_camera(*camera, result.scene.name());
+        if (const toml::node* seed = table.get("seed"))
+            result.seed = reader_.number(*seed, "a seed", 0, INT64_MAX);
+        if (const toml::node* label = table.get("name")) result.label = reader_.text(*label, "a name");
         const toml::node* rays = table.get("rays");
-        if (rays == nullptr) throw Error("{}: expected {{ scene, rays }}, got no rays", place);
+        if (rays == nullptr) {
+            for (const char* key : {"format", "kind"}) {
+                if (table.contains(key)) throw Error("{}: {} is of rays, got no rays", result.place, key);
+            }
+            return;
+        }
+        if (camera != nullptr || result.seed)
+            throw Error("{}: expected no camera or seed: rays of a file have theirs", result.place);
+        result.rays = ray_input(*rays, table, result.place);
+    }
+
+    [[nodiscard]] fs::path existing_camera(const toml::node& node, const std::string& scene) const {
+        const std::string place = reader_.place(node);
+        const fs::path path = existing_file(reader_.text(node, "the name of a file"), place);
+        at(place, [&] { return model::load_camera(path, scene); });
+        return path;
+    }
+
+    RayInput ray_input(const toml::node& rays, const toml::table& table, const std::string& place) {
         RayInput result;
-        result.file = existing_file(reader_.text(*rays, "the name of a file"), place);
+        result.file = existing_file(reader_.text(rays, "the name of a file"), place);
         const auto option = [&](const char* key, const char* fallback) {
             const toml::node* node = table.get(key);
             return node == nullptr ? std::string(fallback) : reader_.text(*node, "a name");
@@ -169,11 +196,39 @@ class Parser {
                 return model::parse_edge_identity(reader_.text(*node, "position or index"));
             });
         }
+    }
+
+    [[nodiscard]] bool is_estimated() const { return file_.fidelity != FidelityLevel::Cycle; }
+
+    void read_fidelity() {
         if (const toml::node* node = find("fidelity")) {
-            const std::string text = reader_.text(*node, "fidelity = \"cycle\"");
-            if (text != "cycle")
-                throw Error("{}: expected fidelity cycle, got '{}'", reader_.place(*node), text);
+            const std::string text = reader_.text(*node, "fidelity, a name");
+            file_.fidelity = at(reader_.place(*node), [&] { return parse_fidelity_level(text); });
         }
+        const toml::node* node = find("tolerance");
+        if (node == nullptr) return;
+        const std::optional<double> percent = node->value<double>();
+        if (!percent || !(*percent >= 0.6) || *percent > 50)
+            throw Error("{}: expected tolerance, a number from 0.6 to 50 percent", reader_.place(*node));
+        if (file_.fidelity != FidelityLevel::Sampled && file_.fidelity != FidelityLevel::Auto)
+            throw Error("{}: a tolerance is of fidelity sampled and auto only", reader_.place(*node));
+        file_.tolerance = *percent / 100;
+    }
+
+    // Throws for an objective that an estimate does not tell.
+    [[nodiscard]] SweepObjective objective(const std::string& text, const std::string& place) const {
+        SweepObjective result = parse_sweep_objective(text, place);
+        if (is_estimated() && result.needs_counters())
+            throw Error("{}: {} needs fidelity cycle: an estimate has no counters", place, result.name());
+        return result;
+    }
+
+    void read_charts() {
+        const toml::node* node = find("charts");
+        if (node == nullptr) return;
+        for (const toml::node& element : reader_.array(*node, "[[charts]], tables"))
+            file_.charts.push_back(
+                parse_sweep_chart(reader_, reader_.table(element, "[[charts]], tables"), file_.charts));
     }
 
     void read_space() {
@@ -191,10 +246,9 @@ class Parser {
         file_.constraints = list("constraints", {}, [](const std::string& text, const std::string& place) {
             return SweepConstraint(text, place);
         });
-        file_.objectives = list("objectives", {"mrps", "bytes_per_ray"},
-                                [](const std::string& text, const std::string& place) {
-                                    return parse_sweep_objective(text, place);
-                                });
+        file_.objectives = list(
+            "objectives", {"mrps", is_estimated() ? "mgates" : "bytes_per_ray"},
+            [this](const std::string& text, const std::string& place) { return objective(text, place); });
         if (const toml::node* node = find("subset")) file_.subset = subset(*node);
     }
 
@@ -221,24 +275,25 @@ class Parser {
     TomlReader reader_;
     fs::path path_;
     fs::path folder_;
+    fs::path scenes_;
     SweepFile file_;
 };
 
 }  // namespace
 
-SweepFile parse_sweep(std::string_view text, const fs::path& path) {
-    SweepFile file = Parser(text, path).run();
+SweepFile parse_sweep(std::string_view text, const fs::path& path, const fs::path& scenes) {
+    SweepFile file = Parser(text, path, scenes).run();
     file.text = text;
     return file;
 }
 
-SweepFile read_sweep_file(const fs::path& path) {
+SweepFile read_sweep_file(const fs::path& path, const fs::path& scenes) {
     model::RegularFile file(path);
     if (file.size_bytes() > max_file_bytes)
         throw Error("{}: expected a sweep of at most {} bytes", path.string(), max_file_bytes);
     std::string text(file.size_bytes(), '\0');
     file.read(text.data(), text.size());
-    return parse_sweep(text, path);
+    return parse_sweep(text, path, scenes);
 }
 
 }  // namespace rtu::study

@@ -11,7 +11,9 @@
 #include "model/pairing.hpp"
 #include "model/workload.hpp"
 #include "sim/effective_config.hpp"
+#include "study/fidelity/fidelity_levels.hpp"
 #include "study/run_options.hpp"
+#include "study/sweep/sweep_chart.hpp"
 #include "study/sweep/sweep_constraint.hpp"
 #include "study/sweep/sweep_objective.hpp"
 
@@ -23,10 +25,14 @@ namespace rtu::study {
 struct SweepInput {
     SceneSource scene;
     std::optional<RayInput> rays;
+    std::optional<std::filesystem::path> camera_file;  ///< instead of the sweep's
+    std::optional<std::uint64_t> seed;                 ///< instead of the sweep's
+    std::string label;  ///< what the sweep calls it; empty: as the scene is called
     std::string place;  ///< FILE:LINE
 
-    /// The scene's name, and behind a '/' that of the file of rays.
+    /// The label, or the scene's name and behind a '/' that of the file of rays.
     [[nodiscard]] std::string name() const {
+        if (!label.empty()) return label;
         return rays ? scene.name() + "/" + rays->file.stem().string() : scene.name();
     }
 };
@@ -64,13 +70,19 @@ struct SweepFile {
     std::vector<SweepConstraint> constraints;
     std::optional<SweepSubset> subset;
     std::vector<SweepObjective> objectives;
+    FidelityLevel fidelity = FidelityLevel::Cycle;  ///< of all points but those of the front
+    double tolerance = 0.02;                        ///< of sampled and auto, as in SampledOptions
+    std::vector<SweepChart> charts;
 };
 
 /// Reads a sweep file. Throws Error with file and line for text that is not TOML, for unknown, repeated and
-/// missing keys, and for values that cannot be. Files that it names are relative to its folder.
-[[nodiscard]] SweepFile read_sweep_file(const std::filesystem::path& path);
+/// missing keys, and for values that cannot be. Files that it names are relative to its folder or, when they
+/// are not there, to `scenes` unless that is empty.
+[[nodiscard]] SweepFile read_sweep_file(const std::filesystem::path& path,
+                                        const std::filesystem::path& scenes = {});
 
-/// The same of its text; `path` is the name in errors and the folder of relative files.
-[[nodiscard]] SweepFile parse_sweep(std::string_view text, const std::filesystem::path& path);
+/// The same of its text; `path` is the name in errors, and its folder that of relative files.
+[[nodiscard]] SweepFile parse_sweep(std::string_view text, const std::filesystem::path& path,
+                                    const std::filesystem::path& scenes = {});
 
 }  // namespace rtu::study

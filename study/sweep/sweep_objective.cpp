@@ -1,7 +1,10 @@
 #include "study/sweep/sweep_objective.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "model/error.hpp"
 #include "model/one_line.hpp"
@@ -13,10 +16,13 @@ namespace {
 struct Measure {
     std::string_view name;
     bool is_maximised;
+    bool needs_counters;
 };
 
-constexpr std::array measures{Measure{"mrps", true}, Measure{"bytes_per_ray", false},
-                              Measure{"box_utilisation", true}, Measure{"pair_utilisation", true}};
+constexpr std::array measures{
+    Measure{"mrps", true, false},           Measure{"mrps_per_mgate", true, false},
+    Measure{"mgates", false, false},        Measure{"bytes_per_ray", false, true},
+    Measure{"box_utilisation", true, true}, Measure{"pair_utilisation", true, true}};
 
 SweepObjective of_key(std::string_view key_name, bool is_maximised, const std::string& place) {
     const sim::ConfigKey& key = sim::config_keys()[sim::config_key_index(key_name, place)];
@@ -33,19 +39,22 @@ std::string SweepObjective::name() const {
     return fmt::format("{} {}", is_maximised ? "max" : "min", column);
 }
 
+bool SweepObjective::needs_counters() const {
+    const auto measure = std::ranges::find(measures, column, &Measure::name);
+    return measure != measures.end() && measure->needs_counters;
+}
+
+bool SweepObjective::has_interval() const { return column == "mrps" || column == "mrps_per_mgate"; }
+
 SweepObjective parse_sweep_objective(std::string_view text, const std::string& place) {
     const auto measure = std::ranges::find(measures, text, &Measure::name);
     if (measure != measures.end()) return {std::string(text), measure->is_maximised};
     if (text.starts_with("min ")) return of_key(text.substr(4), false, place);
     if (text.starts_with("max ")) return of_key(text.substr(4), true, place);
-    if (text == "mrps_per_mgate") {
-        throw Error("{}: mrps_per_mgate needs the area of a machine, which is not modelled", place);
-    }
-    throw Error(
-        "{}: expected an objective (mrps, bytes_per_ray, box_utilisation, pair_utilisation, 'min KEY' or "
-        "'max "
-        "KEY'), got '{}'",
-        place, model::one_line(text));
+    std::vector<std::string_view> names;
+    for (const Measure& known : measures) names.push_back(known.name);
+    throw Error("{}: expected an objective ({}, 'min KEY' or 'max KEY'), got '{}'", place,
+                fmt::join(names, ", "), model::one_line(text));
 }
 
 }  // namespace rtu::study

@@ -24,9 +24,14 @@ std::string file_fingerprint(const std::filesystem::path& path) {
     return digest;
 }
 
-std::string camera_text(const SweepFile& file, const SceneSource& scene) {
-    if (!file.camera_file) return "automatic";
-    const auto camera = model::load_camera(*file.camera_file, scene.name());
+std::optional<std::filesystem::path> camera_file_of(const SweepFile& file, const SweepInput& input) {
+    return input.camera_file ? input.camera_file : file.camera_file;
+}
+
+std::string camera_text(const SweepFile& file, const SweepInput& input) {
+    const std::optional<std::filesystem::path> path = camera_file_of(file, input);
+    if (!path) return "automatic";
+    const auto camera = model::load_camera(*path, input.scene.name());
     if (!camera) return "automatic";
     const auto& [eye, target, up, tan_half_fov] = *camera;
     return fmt::format("{} {} {}, {} {} {}, {} {} {}, {}", eye.x, eye.y, eye.z, target.x, target.y, target.z,
@@ -41,7 +46,7 @@ std::string rays_text(const SweepFile& file, const SweepInput& input) {
     std::vector<std::string_view> workloads;
     for (const model::WorkloadKind kind : file.workloads) workloads.push_back(to_string(kind));
     return fmt::format("{} {}x{} seed {} camera {}", fmt::join(workloads, ","), file.resolution.width,
-                       file.resolution.height, file.seed, camera_text(file, input.scene));
+                       file.resolution.height, input.seed.value_or(file.seed), camera_text(file, input));
 }
 
 std::string fingerprint_of(const std::vector<std::string>& parts) {
@@ -56,15 +61,29 @@ std::string tree_text(const sim::Config::Bvh& bvh) {
     return text;
 }
 
-SweepPoint make_point(const SweepPlan& plan, std::size_t scene, std::size_t design) {
+std::string fidelity_text(const SweepFile& file, FidelityLevel level) {
+    if (!uses_tolerance(level)) return std::string(to_string(level));
+    return fmt::format("{} {}", to_string(level), file.tolerance);
+}
+
+SweepPoint make_point(const SweepPlan& plan, std::size_t scene, std::size_t design, FidelityLevel level) {
     const SweepScene& where = plan.scenes[scene];
     const SweepDesign& what = plan.designs[design];
     const std::string program(version());
     return {
-        fingerprint_of({program, where.hash, where.rays, "cycle", what.id}),
+        fingerprint_of({program, where.hash, where.rays, fidelity_text(plan.file, level), what.id}),
         fingerprint_of({program, where.hash, where.rays, to_string(what.pairing),
-                        std::string(model::to_string(plan.file.edge_identity)), tree_text(what.config.bvh)}),
-        design, scene};
+                        std::string(model::to_string(plan.file.edge_identity)), tree_text(what.config.bvh),
+                        level == FidelityLevel::Cycle ? "traversals" : "rays"}),
+        design, scene, level};
+}
+
+void add_pass(SweepPlan& plan, FidelityLevel level) {
+    for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) {
+        for (std::size_t design = 0; design < plan.designs.size(); ++design) {
+            plan.points.push_back(make_point(plan, scene, design, level));
+        }
+    }
 }
 
 }  // namespace
@@ -78,11 +97,8 @@ SweepPlan make_sweep_plan(SweepFile file) {
             {input.name(), scene.input_hash, rays_text(file, input), scene.facts.triangle_count});
     }
     plan.file = std::move(file);
-    for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) {
-        for (std::size_t design = 0; design < plan.designs.size(); ++design) {
-            plan.points.push_back(make_point(plan, scene, design));
-        }
-    }
+    add_pass(plan, plan.file.fidelity);
+    if (plan.file.fidelity != FidelityLevel::Cycle) add_pass(plan, FidelityLevel::Cycle);
     return plan;
 }
 
@@ -94,9 +110,10 @@ RunOptions run_options(const SweepPlan& plan, const SweepPoint& point) {
     options.edge_identity = file.edge_identity;
     options.workloads = file.workloads;
     options.resolution = file.resolution;
-    options.camera_file = file.camera_file;
-    options.seed = file.seed;
-    options.rays = file.inputs[point.scene].rays;
+    const SweepInput& input = file.inputs[point.scene];
+    options.camera_file = camera_file_of(file, input);
+    options.seed = input.seed.value_or(file.seed);
+    options.rays = input.rays;
     options.preset = design.preset;
     options.config = design.config;
     return options;

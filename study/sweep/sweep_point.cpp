@@ -1,5 +1,7 @@
 #include "study/sweep/sweep_point.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "model/error.hpp"
@@ -72,16 +74,41 @@ constexpr std::array counts = std::to_array<SweepCount>({
      [](const WorkloadReport& w) { return sum(w, "dram", "write_bytes"); }},
 });
 
+constexpr std::size_t ray_count_index = 0, cycles_index = 6;
+static_assert(counts[ray_count_index].name == "ray_count" && counts[cycles_index].name == "cycles");
+
 SweepRow row_of(const WorkloadReport& workload) {
-    SweepRow row{workload.name, {}};
-    for (const SweepCount& count : counts) row.counts.push_back(count.value(workload));
+    SweepRow row{workload.name, "cycle", double(workload.cycles), double(workload.cycles)};
+    for (const SweepCount& count : counts) row.counts.emplace_back(count.value(workload));
     return row;
 }
 
+SweepRow row_of(const std::string& workload, const LevelResult& result) {
+    const CycleEstimate& estimate = result.estimate;
+    SweepRow row{workload, result.level, estimate.low * estimate.rays};
+    if (std::isfinite(estimate.high)) row.cycles_high = estimate.high * estimate.rays;
+    row.counts.resize(counts.size());
+    row.counts[ray_count_index] = std::uint64_t(std::llround(estimate.rays));
+    row.counts[cycles_index] = std::uint64_t(std::llround(estimate.cycles_per_ray * estimate.rays));
+    return row;
+}
+
+std::optional<std::uint64_t> sum(std::optional<std::uint64_t> a, std::optional<std::uint64_t> b) {
+    return a && b ? std::optional(*a + *b) : std::nullopt;
+}
+
+// The bounds are added, as if the errors of all workloads had one cause.
 SweepRow total_of(const std::vector<SweepRow>& rows) {
-    SweepRow total{"total", std::vector<std::uint64_t>(counts.size(), 0)};
+    SweepRow total{"total", "cycle", 0, 0.0};
+    total.counts.assign(counts.size(), 0);
     for (const SweepRow& row : rows) {
-        for (std::size_t i = 0; i < counts.size(); ++i) total.counts[i] += row.counts[i];
+        total.level = std::string(
+            to_string(std::min(parse_fidelity_level(total.level), parse_fidelity_level(row.level))));
+        total.cycles_low += row.cycles_low;
+        total.cycles_high = total.cycles_high && row.cycles_high
+                                ? std::optional(*total.cycles_high + *row.cycles_high)
+                                : std::nullopt;
+        for (std::size_t i = 0; i < counts.size(); ++i) total.counts[i] = sum(total.counts[i], row.counts[i]);
     }
     return total;
 }
@@ -109,9 +136,31 @@ SweepResult simulate_point(const std::string& point, const sim::Config& config, 
     return result;
 }
 
+SweepResult estimate_point(const std::string& point, const sim::Config& config, const SweepTree& tree,
+                           FidelityLevel level, const SampledOptions& options) {
+    SweepResult result;
+    result.point = point;
+    result.paired_percent = tree.paired_percent();
+    const double start = cpu_seconds();
+    for (const auto& population : tree.populations()) {
+        const LevelResult found = run_level(level, config, tree.image(), *population, options);
+        result.rows.push_back(row_of(population->name(), found));
+    }
+    result.rows.push_back(total_of(result.rows));
+    result.cpu_seconds = cpu_seconds() - start;
+    return result;
+}
+
 std::string to_json_line(const SweepResult& result) {
     Json rows = Json::object();
-    for (const SweepRow& row : result.rows) rows[row.workload] = row.counts;
+    for (const SweepRow& row : result.rows) {
+        Json counts_of_row = Json::array();
+        for (const auto& count : row.counts) counts_of_row.push_back(count ? Json(*count) : Json());
+        rows[row.workload] = {{"level", row.level},
+                              {"low", row.cycles_low},
+                              {"high", row.cycles_high ? Json(*row.cycles_high) : Json()},
+                              {"counts", std::move(counts_of_row)}};
+    }
     const Json line{{"point", result.point},
                     {"error", result.error},
                     {"paired_percent", result.paired_percent},
@@ -128,8 +177,13 @@ SweepResult parse_sweep_result(std::string_view line) try {
     result.paired_percent = json.at("paired_percent");
     result.cpu_seconds = json.at("cpu_seconds");
     for (const auto& [workload, values] : json.at("rows").items()) {
-        result.rows.push_back({workload, values.get<std::vector<std::uint64_t>>()});
-        if (values.size() != counts.size()) throw Error("expected {} counts", counts.size());
+        SweepRow row{workload, values.at("level"), values.at("low")};
+        if (!values.at("high").is_null()) row.cycles_high = values.at("high").get<double>();
+        for (const Json& count : values.at("counts")) {
+            row.counts.push_back(count.is_null() ? std::nullopt : std::optional(count.get<std::uint64_t>()));
+        }
+        if (row.counts.size() != counts.size()) throw Error("expected {} counts", counts.size());
+        result.rows.push_back(std::move(row));
     }
     return result;
 } catch (const Json::exception& error) {

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "study/fidelity/fidelity_levels.hpp"
 #include "study/report/run_report.hpp"
 #include "study/sweep/sweep_tree.hpp"
 
@@ -23,10 +25,14 @@ struct SweepCount {
 /// All of them, in the order of the columns.
 [[nodiscard]] std::span<const SweepCount> sweep_counts();
 
-/// What one workload of a point gave: sweep_counts().size() numbers.
+/// What one workload of a point gave.
 struct SweepRow {
     std::string workload;
-    std::vector<std::uint64_t> counts;
+    std::string level = "cycle";  ///< of fidelity that the figures are from; of a total the least exact one
+    double cycles_low = 0;        ///< 95 % interval; without width at level cycle
+    std::optional<double> cycles_high = std::nullopt;  ///< nothing: no bound
+    /// [sweep_counts().size()]; estimates have ray_count and cycles only.
+    std::vector<std::optional<std::uint64_t>> counts{};
 };
 
 /// What one point gave. Deterministic outside `cpu_seconds`.
@@ -42,6 +48,11 @@ struct SweepResult {
 /// must be valid, and its tree that of `tree`. Throws as sim::simulate() does.
 [[nodiscard]] SweepResult simulate_point(const std::string& point, const sim::Config& config,
                                          const SweepTree& tree);
+
+/// Estimates every workload of a tree that was prepared with its rays at a level other than cycle.
+[[nodiscard]] SweepResult estimate_point(const std::string& point, const sim::Config& config,
+                                         const SweepTree& tree, FidelityLevel level,
+                                         const SampledOptions& options);
 
 /// As one line of JSON, without a line feed.
 [[nodiscard]] std::string to_json_line(const SweepResult& result);

@@ -40,6 +40,7 @@ class SweepRun {
         if (options_.retries_failed) database_.retry_failed();
         const std::vector<std::size_t> waiting = in_tree_order(database_.waiting());
         if (!waiting.empty()) simulate(waiting);
+        if (plan_.file.fidelity != FidelityLevel::Cycle) refine_front();
         return finish();
     }
 
@@ -58,6 +59,30 @@ class SweepRun {
             options_.database.string(), job, job);
     }
 
+    // Simulates every ray of the designs that may be on the front, until none of them is an estimate.
+    void refine_front() {
+        while (true) {
+            std::vector<std::size_t> points;
+            for (const std::string& id :
+                 front_to_confirm(rated_designs(database_.sql(), plan_.file.objectives), confirmed_,
+                                  plan_.file.objectives)) {
+                confirmed_.insert(id);
+                const std::size_t design = design_index(id);
+                for (std::size_t scene = 0; scene < plan_.scenes.size(); ++scene)
+                    points.push_back(plan_.cycle_point(scene, design));
+            }
+            if (points.empty()) return;
+            database_.add_points(plan_, points);
+            if (options_.retries_failed) database_.retry_failed();
+            const std::vector<std::size_t> waiting = in_tree_order(database_.waiting());
+            if (!waiting.empty()) simulate(waiting);
+        }
+    }
+
+    [[nodiscard]] std::size_t design_index(const std::string& id) const {
+        return std::size_t(std::ranges::find(plan_.designs, id, &SweepDesign::id) - plan_.designs.begin());
+    }
+
     [[nodiscard]] std::vector<std::size_t> in_tree_order(std::vector<std::size_t> points) const {
         std::ranges::stable_sort(points, {}, [&](std::size_t point) { return plan_.points[point].tree; });
         return points;
@@ -69,7 +94,8 @@ class SweepRun {
         const fs::path list = folder_.path() / (model::hex_digits(model::fingerprint(text)) + ".points");
         const OutputFile file{list, text};
         write_files({&file, 1});
-        start_ = Clock::now();
+        pass_start_ = Clock::now();
+        if (start_ == Clock::time_point{}) start_ = pass_start_;
         counts_ = database_.counts();
         done_before_ = counts_.done + counts_.failed;
         find_best("");
@@ -93,9 +119,14 @@ class SweepRun {
         for (const std::size_t index : waiting) {
             const SweepPoint& point = plan_.points[index];
             if (!prepared.insert(point.tree).second) continue;
-            tell({fmt::format("{}: recording traversals", plan_.scenes[point.scene].name), {}, 0, 0, {}});
-            prepare_tree(run_options(plan_, point), plan_.file.inputs[point.scene].scene, folder_.path(),
-                         point.tree);
+            tell({fmt::format("{}: recording {}", plan_.scenes[point.scene].name,
+                              point.level == FidelityLevel::Cycle ? "traversals" : "rays"),
+                  {},
+                  0,
+                  0,
+                  {}});
+            prepare_tree(run_options(plan_, point), plan_.file.inputs[point.scene].scene, content_of(point),
+                         folder_.path(), point.tree);
         }
     }
 
@@ -117,7 +148,7 @@ class SweepRun {
             count(!result.error.empty());
             if (result.error.empty()) find_best(result.point);
         }
-        const double seconds = seconds_since(start_);
+        const double seconds = seconds_since(pass_start_);
         const double rate = double(counts_.done + counts_.failed - done_before_) / seconds;
         tell({{}, counts_, rate, rate > 0 ? double(counts_.waiting) / rate : 0.0, best_text()});
     }
@@ -144,7 +175,7 @@ class SweepRun {
 
     [[nodiscard]] std::string best_text() const {
         if (!best_) return {};
-        const SweepPoint& point = plan_.points[best_->point];
+        const SweepPoint& point = plan_.points[best_->point];  // of either pass
         return fmt::format("{} {:.4g} ({}, design {})", plan_.file.objectives.front().name(), best_->value,
                            plan_.scenes[point.scene].name, plan_.designs[point.design].id);
     }
@@ -160,8 +191,10 @@ class SweepRun {
         outcome.seconds = start_ == Clock::time_point{} ? 0.0 : seconds_since(start_);
         outcome.workers = workers_;
         outcome.failures = database_.failures();
-        outcome.front =
-            pareto_front(rated_designs(database_.sql(), plan_.file.objectives), plan_.file.objectives);
+        std::vector<RatedDesign> rated = rated_designs(database_.sql(), plan_.file.objectives);
+        std::erase_if(rated, &RatedDesign::is_estimate);
+        outcome.front = pareto_front(std::move(rated), plan_.file.objectives);
+        outcome.confirmation = confirmation(database_.sql());
         std::vector<std::string> designs;
         for (const RatedDesign& design : outcome.front) designs.push_back(design.id);
         database_.set_front(designs);
@@ -180,7 +213,8 @@ class SweepRun {
         double value = 0;
         std::size_t point = 0;
     };
-    Clock::time_point start_{};
+    Clock::time_point start_{}, pass_start_{};
+    std::set<std::string> confirmed_;
     SweepCounts counts_;
     std::optional<Best> best_;
     std::uint64_t done_before_ = 0;

@@ -41,6 +41,7 @@ struct SweepOutcome {
     unsigned workers = 0;         ///< 0: of a cluster, or none were needed
     std::vector<SweepFailure> failures;
     std::vector<RatedDesign> front;
+    SweepConfirmation confirmation;  ///< of a sweep of estimates
 };
 
 /// Simulates the points of the plan that are not in the database yet, and finds the front of the objectives.

@@ -76,6 +76,9 @@ std::string objectives_text(const SweepFile& file) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+// Or as whole as the geometric mean of a whole number is.
+bool is_whole(double value) { return std::abs(value - std::round(value)) <= 1e-9 * value; }
+
 std::string front_table(const SweepPlan& plan, const std::vector<RatedDesign>& front) {
     const DesignColumns varying(plan);
     std::vector<TextTable::Column> columns{{"Design", left}};
@@ -86,8 +89,7 @@ std::string front_table(const SweepPlan& plan, const std::vector<RatedDesign>& f
     TextTable table(columns);
     for (std::size_t i = 0; i < std::min(front.size(), most_rows); ++i) {
         std::vector<std::string> cells{front[i].id};
-        for (const double value : front[i].values)
-            cells.push_back(fixed(value, value == std::floor(value) ? 0 : 2));
+        for (const double value : front[i].values) cells.push_back(fixed(value, is_whole(value) ? 0 : 3));
         varying.add_cells(*designs.at(front[i].id), cells);
         table.add_row(cells);
     }
@@ -106,10 +108,20 @@ std::string failure_text(const std::vector<SweepFailure>& failures) {
     return text;
 }
 
+// What a sweep of estimates simulated before it says what its front is.
+std::string confirmation_text(const SweepPlan& plan, const SweepConfirmation& found) {
+    if (plan.file.fidelity == FidelityLevel::Cycle) return "";
+    return fmt::format(
+        "Fidelity  {}; {} that the front may hold simulated with every ray\n"
+        "          of {} so checked, {} within their interval, {:.2f} % off at most\n",
+        to_string(plan.file.fidelity), count_of(found.designs, "design"), count_of(found.figures, "figure"),
+        found.inside, found.largest_error_percent);
+}
+
 std::string heading(const SweepPlan& plan) {
     return fmt::format("Sweep     {}: {} in {}, {}; rtusim {}\n", plan.file.name,
                        count_of(plan.designs.size(), "design"), count_of(plan.scenes.size(), "scene"),
-                       count_of(plan.points.size(), "point"), version());
+                       count_of(plan.scenes.size() * plan.designs.size(), "point"), version());
 }
 
 }  // namespace
@@ -133,6 +145,7 @@ std::string sweep_text(const SweepPlan& plan, const SweepOutcome& outcome, const
                             duration_text(outcome.seconds),
                             outcome.workers == 0 ? "" : ", by " + count_of(outcome.workers, "worker"));
     }
+    text += confirmation_text(plan, outcome.confirmation);
     text += fmt::format("Database  {} (table `results`; docs/sweeps.md)\n\nFront of {}: {} of {}\n\n",
                         database, objectives_text(plan.file), outcome.front.size(),
                         count_of(plan.designs.size(), "design"));
@@ -144,7 +157,7 @@ std::string sweep_plan_text(const SweepPlan& plan, const SweepEstimate& estimate
     std::vector<TextTable::Column> columns{{"Point", left}, {"Scene", left}};
     varying.add_columns(columns);
     TextTable table(columns);
-    for (std::size_t i = 0; i < std::min(plan.points.size(), most_rows); ++i) {
+    for (std::size_t i = 0; i < std::min(plan.scenes.size() * plan.designs.size(), most_rows); ++i) {
         const SweepPoint& point = plan.points[i];
         std::vector<std::string> cells{point.id, plan.scenes[point.scene].name};
         varying.add_cells(plan.designs[point.design], cells);
@@ -157,7 +170,7 @@ std::string sweep_plan_text(const SweepPlan& plan, const SweepEstimate& estimate
                        duration_text(estimate.cpu_seconds),
                        duration_text(estimate.cpu_seconds / std::max(1U, estimate.workers)),
                        count_of(estimate.workers, "worker"), byte_size(estimate.worker_bytes)) +
-           table.text() + more_rows(plan.points.size(), "");
+           table.text() + more_rows(plan.scenes.size() * plan.designs.size(), "");
 }
 
 std::string front_json(const SweepPlan& plan, const SweepOutcome& outcome) {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "model/error.hpp"
+#include "model/regular_file.hpp"
 #include "study/output_file.hpp"
 #include "study/ray_origin.hpp"
 #include "traces/trace_writer.hpp"
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 fs::path trace_path(const fs::path& folder, const std::string& name) { return folder / (name + ".rtutrace"); }
+fs::path image_path(const fs::path& folder, const std::string& name) { return folder / (name + ".image"); }
 fs::path facts_path(const fs::path& folder, const std::string& name) { return folder / (name + ".json"); }
 
 // What the recorded traversals take in memory, as SweepTree has them.
@@ -25,21 +27,53 @@ std::uint64_t memory_bytes(const traces::VisitChunk& chunk) {
            chunk.pair_tests.size() * sizeof(traces::PairTest);
 }
 
-std::uint64_t record(const RunOptions& options, const PreparedScene& scene, const fs::path& path) {
+// Writes every chunk by `add`, which returns what it takes in memory.
+template <class Add>
+std::uint64_t write_trace(const RunOptions& options, const PreparedScene& scene, TreeContent content,
+                          const fs::path& path, Add add) {
     std::error_code error;
     fs::remove(path.string() + ".partial", error);  // of a process that was killed
     const std::shared_ptr<traces::RayReader> rays = make_ray_reader(options, scene);
-    traces::TraceWriter writer(path, trace_header(scene, traces::TraceContent::Visits));
+    const bool has_rays = content == TreeContent::Rays;
+    traces::TraceHeader header =
+        trace_header(scene, has_rays ? traces::TraceContent::Rays : traces::TraceContent::Visits);
+    traces::TraceWriter writer(path, header);
     std::uint64_t bytes = 0;
-    while (const std::optional<traces::RayChunk> chunk = rays->next()) {
-        for (const traces::VisitChunk& visits : record_visits(*chunk, scene.built.image)) {
-            bytes += memory_bytes(visits);
-            writer.add(visits);
-        }
-    }
+    while (const std::optional<traces::RayChunk> chunk = rays->next()) bytes += add(writer, *chunk);
     writer.finish();
     if (writer.counts().empty()) throw Error("{}: expected rays, found none", options.rays->file.string());
     return bytes;
+}
+
+std::uint64_t record_traversals(const RunOptions& options, const PreparedScene& scene, const fs::path& path) {
+    const auto add = [&](traces::TraceWriter& writer, const traces::RayChunk& chunk) {
+        std::uint64_t bytes = 0;
+        for (const traces::VisitChunk& visits : record_visits(chunk, scene.built.image)) {
+            bytes += memory_bytes(visits);
+            writer.add(visits);
+        }
+        return bytes;
+    };
+    return write_trace(options, scene, TreeContent::Traversals, path, add);
+}
+
+std::uint64_t record_rays(const RunOptions& options, const PreparedScene& scene, const fs::path& path) {
+    const auto add = [](traces::TraceWriter& writer, const traces::RayChunk& chunk) {
+        writer.add(chunk);
+        return chunk.rays.size() * sizeof(model::Ray);
+    };
+    return write_trace(options, scene, TreeContent::Rays, path, add);
+}
+
+std::string image_bytes(const model::MemoryImage& image) {
+    return {reinterpret_cast<const char*>(image.blocks.data()), image.size_bytes()};
+}
+
+void read_image(const fs::path& path, model::MemoryImage& image) {
+    model::RegularFile file(path);
+    if (file.size_bytes() != image.size_bytes())
+        throw Error("{}: expected {} bytes, got {}", path.string(), image.size_bytes(), file.size_bytes());
+    file.read(reinterpret_cast<char*>(image.blocks.data()), image.size_bytes());
 }
 
 bool is_visit_trace(const RunOptions& options) {
@@ -64,16 +98,26 @@ Json read_facts(const fs::path& folder, const std::string& name) {
 
 }  // namespace
 
-void prepare_tree(const RunOptions& options, const SceneSource& source, const fs::path& folder,
-                  const std::string& name) {
+void prepare_tree(const RunOptions& options, const SceneSource& source, TreeContent content,
+                  const fs::path& folder, const std::string& name) {
     if (fs::exists(facts_path(folder, name))) return;
-    const std::unique_ptr<PreparedScene> scene = prepare_scene(options, source);
+    const bool has_rays = content == TreeContent::Rays;
     const bool is_recorded = is_visit_trace(options);
+    if (is_recorded && has_rays) {
+        throw Error("{}: a traversal trace has no rays, and an estimate needs them; use fidelity cycle",
+                    options.rays->file.string());
+    }
+    const std::unique_ptr<PreparedScene> scene = prepare_scene(options, source);
     const fs::path trace = is_recorded ? fs::absolute(options.rays->file) : trace_path(folder, name);
-    const std::uint64_t visit_bytes = is_recorded ? survey(trace) : record(options, *scene, trace);
+    const std::uint64_t held_bytes = is_recorded ? survey(trace)
+                                     : has_rays  ? record_rays(options, *scene, trace)
+                                                 : record_traversals(options, *scene, trace);
     const model::MemoryImage& image = scene->built.image;
+    std::vector<OutputFile> files;
+    if (has_rays) files.push_back({image_path(folder, name), image_bytes(image)});
     const Json facts{{"trace", is_recorded ? trace.string() : trace.filename().string()},
-                     {"visit_bytes", visit_bytes},
+                     {"has_rays", has_rays},
+                     {"held_bytes", held_bytes},
                      {"width", image.width},
                      {"node_format", std::uint32_t(image.format)},
                      {"depth", image.depth},
@@ -83,14 +127,14 @@ void prepare_tree(const RunOptions& options, const SceneSource& source, const fs
                      {"pair_count", image.pair_count},
                      {"reference_count", image.reference_count},
                      {"paired_percent", scene->report.pairing.paired_percent}};
-    const OutputFile file{facts_path(folder, name),
-                          facts.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"};
-    write_files({&file, 1});
+    files.push_back(
+        {facts_path(folder, name), facts.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"});
+    write_files(files);
 }
 
 std::uint64_t tree_memory_bytes(const fs::path& folder, const std::string& name) {
     const Json facts = read_facts(folder, name);
-    return facts.at("visit_bytes").get<std::uint64_t>() + facts.at("size_bytes").get<std::uint64_t>();
+    return facts.at("held_bytes").get<std::uint64_t>() + facts.at("size_bytes").get<std::uint64_t>();
 }
 
 SweepTree::SweepTree(const fs::path& folder, const std::string& name) {
@@ -104,7 +148,13 @@ SweepTree::SweepTree(const fs::path& folder, const std::string& name) {
     image_.reference_count = facts.at("reference_count");
     image_.blocks.resize(facts.at("size_bytes").get<std::size_t>() / model::image_block_bytes);
     paired_percent_ = facts.at("paired_percent");
-    traces::TraceReader reader(folder / facts.at("trace").get<std::string>());
+    const fs::path trace = folder / facts.at("trace").get<std::string>();
+    if (facts.at("has_rays")) {
+        read_image(image_path(folder, name), image_);
+        populations_ = file_populations(*traces::open_rays(trace, traces::RayFormat::Trace, {}));
+        return;
+    }
+    traces::TraceReader reader(trace);
     while (auto chunk = reader.next_visits()) {
         chunks_.push_back(std::make_shared<const traces::VisitChunk>(std::move(*chunk)));
     }

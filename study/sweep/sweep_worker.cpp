@@ -33,7 +33,14 @@ std::string point_list(const SweepPlan& plan) {
     std::string text;
     for (const SweepPoint& point : plan.points) {
         const SweepDesign& design = plan.designs[point.design];
-        text += Json{{"id", point.id}, {"tree", point.tree}, {"preset", design.preset}, {"sets", design.sets}}
+        const std::uint64_t seed = plan.file.inputs[point.scene].seed.value_or(plan.file.seed);
+        text += Json{{"id", point.id},
+                     {"tree", point.tree},
+                     {"level", to_string(point.level)},
+                     {"tolerance", plan.file.tolerance},
+                     {"seed", seed},
+                     {"preset", design.preset},
+                     {"sets", design.sets}}
                     .dump() +
                 '\n';
     }
@@ -60,7 +67,10 @@ bool SweepWorker::run(std::size_t index) {
     const sim::EffectiveConfig machine = sim::load_config(point.at("preset").get<std::string>(), {}, sets);
     SweepResult result;
     try {
-        result = simulate_point(point.at("id"), machine.config, shared);
+        const FidelityLevel level = parse_fidelity_level(point.at("level").get<std::string>());
+        result = level == FidelityLevel::Cycle ? simulate_point(point.at("id"), machine.config, shared)
+                                               : estimate_point(point.at("id"), machine.config, shared, level,
+                                                                {point.at("tolerance"), point.at("seed")});
     } catch (const std::exception& error) {
         result = {};
         result.point = point.at("id");

@@ -102,6 +102,72 @@ TEST_F(SweepCommand, PointsGiveWhatRunsGive) {
     EXPECT_DOUBLE_EQ(row["bytes_per_ray"], bytes / report["total"]["ray_count"].get<double>());
 }
 
+// Estimates first, and only what may be on the front in full: the same front as of simulations of everything.
+TEST_F(SweepCommand, TheFrontOfEstimatesIsThatOfSimulations) {
+    std::string text = small_sweep;
+    text.replace(text.find("[8, 8]"), 6, "[32, 32]");
+    text.replace(text.find("\"min rtu.box.boxes_per_cycle\""), 29, "\"mgates\"");
+    static_cast<void>(folder_.write("cycle.toml", text));
+    static_cast<void>(folder_.write("auto.toml", "fidelity = \"auto\"\n" + text));
+    static_cast<void>(sweep({"cycle.toml", "--front", "cycle.front"}));
+    EXPECT_THAT(sweep({"auto.toml", "--front", "auto.front"}),
+                AllOf(HasSubstr("Fidelity  auto; "), HasSubstr("within their interval")));
+    EXPECT_EQ(Json::parse(content("auto.front"))["designs"], Json::parse(content("cycle.front"))["designs"]);
+    EXPECT_EQ(number("auto.db", "SELECT count(*) FROM point WHERE fidelity = 'auto'"), 16);
+    const std::int64_t simulated =
+        number("auto.db", "SELECT count(*) FROM point WHERE fidelity = 'cycle' AND status = 'done'");
+    EXPECT_GT(simulated, 0);
+    EXPECT_LT(simulated, 16);
+    EXPECT_EQ(
+        number("auto.db",
+               "SELECT count(*) FROM results WHERE mrps < mrps_low OR mrps > mrps_high OR level = 'auto'"),
+        0);
+    EXPECT_EQ(
+        number("auto.db", "SELECT count(*) FROM front JOIN answers USING (design) WHERE level <> 'cycle'"),
+        0);
+    EXPECT_EQ(number("auto.db", "SELECT count(*) FROM answers"), 16 * 3);
+    EXPECT_THAT(sweep({"auto.toml"}), HasSubstr("none were left to simulate"));
+}
+
+TEST_F(SweepCommand, EstimatesAreThoseOfRuns) {
+    static_cast<void>(
+        folder_.write("s.toml",
+                      "scenes = [\"ball.glb\"]\nworkloads = [\"primary\"]\nresolution = [40, 40]\nfidelity = "
+                      "\"analytic\"\nseed = 3\n[set]\nrtu.ray_slots = 16\n"));
+    static_cast<void>(sweep({"s.toml", "--json", "s.json"}));
+    const Json row = Json::parse(content("s.json"))[0];
+    ASSERT_EQ(row["level"], "analytic");
+    const Json report =
+        Json::parse(run({"run", "ball.glb", "--resolution", "40x40", "--workload", "primary", "--seed", "3",
+                         "--set", "rtu.ray_slots=16", "--fidelity", "analytic", "--json", "-"})
+                        .out);
+    const Json& run_row = report["rows"][0];
+    // Cycles are whole in the database.
+    EXPECT_NEAR(row["mrps"], run_row["mrps"].get<double>(), 0.001 * row["mrps"].get<double>());
+    EXPECT_NEAR(row["mrps_low"], run_row["mrps_low"].get<double>(), 0.001 * row["mrps"].get<double>());
+    EXPECT_TRUE(row["l1_hits"].is_null());
+}
+
+TEST_F(SweepCommand, ChartsAreDrawnAndTold) {
+    static_cast<void>(folder_.write(
+        "s.toml", small_sweep + "[[charts]]\nname = \"slots\"\ntitle = \"Slots\"\nx = \"rtu.ray_slots\"\n"
+                                "panels = \"workload\"\nseries = [\"pairing\"]\n"));
+    EXPECT_THAT(sweep({"s.toml"}), AllOf(HasSubstr("\nSlots\nmrps by rtu.ray_slots: geometric mean"),
+                                         HasSubstr("diffuse   edge_bbsa")));
+    const ProcessResult result = run({"sweep", "s.toml", "--charts", "pictures"});
+    if (result.err.find("gnuplot") != std::string::npos) GTEST_SKIP() << "gnuplot is not installed";
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(content("pictures/slots.svg"), HasSubstr("<svg"));
+}
+
+// Files that are not beside the sweep file are looked for where --scenes says.
+TEST_F(SweepCommand, ScenesMayLieElsewhere) {
+    std::filesystem::create_directories(folder_.path() / "sweeps");
+    static_cast<void>(folder_.write("sweeps/s.toml", small_sweep));
+    EXPECT_EQ(run({"sweep", "sweeps/s.toml", "--dry-run"}).exit_code, 1);
+    EXPECT_EQ(run({"sweep", "sweeps/s.toml", "--dry-run", "--scenes", "."}).exit_code, 0);
+}
+
 TEST_F(SweepCommand, AnyNumberOfWorkersGivesTheSame) {
     static_cast<void>(folder_.write("s.toml", small_sweep));
     const std::string one = sweep({"s.toml", "--workers", "1", "--output", "one.db", "--csv", "one.csv",
@@ -116,8 +182,8 @@ TEST_F(SweepCommand, AnyNumberOfWorkersGivesTheSame) {
     const Json columns = Json::parse(content("one.columns"));
     EXPECT_EQ(columns["types"]["rtu_ray_slots"], "int64");
     EXPECT_EQ(columns["types"]["rtu_pair_mode"], "string");
-    EXPECT_EQ(columns["types"]["mrps"], "double");
-    for (const auto& [name, values] : columns["columns"].items()) EXPECT_EQ(values.size(), 48U) << name;
+    EXPECT_EQ(columns["types"]["primary_mrps"], "double");
+    for (const auto& [name, values] : columns["columns"].items()) EXPECT_EQ(values.size(), 16U) << name;
     EXPECT_FALSE(Json::parse(content("one.front"))["designs"].empty());
 }
 

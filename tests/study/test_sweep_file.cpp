@@ -186,10 +186,20 @@ const BadFile bad_files[] = {
     {"resolution = [0, 4]\n", "s.toml:2: expected a width in pixels, a number from 1 to 16384, got 0"},
     {"resolution = [4]\n", "s.toml:2: expected resolution = [width, height]"},
     {"camera = \"none.toml\"\n", "s.toml:2: none.toml: "},
-    {"fidelity = \"magic\"\n", "s.toml:2: expected fidelity cycle, got 'magic'"},
+    {"fidelity = \"magic\"\n", "s.toml:2: expected counts, analytic, sampled, cycle or auto, got 'magic'"},
+    {"fidelity = \"sampled\"\ntolerance = 0.1\n", "s.toml:3: expected tolerance, a number from 0.6"},
+    {"tolerance = 2\n", "s.toml:2: a tolerance is of fidelity sampled and auto only"},
+    {"fidelity = \"auto\"\nobjectives = [\"bytes_per_ray\"]\n",
+     "s.toml:3: bytes_per_ray needs fidelity cycle"},
+    {"[[charts]]\nname = \"a\"\n", "s.toml:2: a chart needs title"},
+    {"[[charts]]\nname = \"a b\"\n", "s.toml:3: expected a chart's name"},
+    {"[[charts]]\nname = \"a\"\ntitle = \"\"\nx = \"rtu.slots\"\n", "s.toml:5: expected a configuration key"},
+    {"[[charts]]\nname = \"a\"\ntitle = \"\"\nx = \"scene\"\ny = \"speed\"\n",
+     "s.toml:6: expected one of mrps"},
+    {"[[charts]]\nname = \"a\"\ntitle = \"\"\nx = \"scene\"\nagainst = \"all\"\n",
+     "s.toml:6: expected against = 'best'"},
     {"objectives = [\"speed\"]\n", "s.toml:2: expected an objective (mrps, "},
     {"objectives = [\"min rtu.pair.mode\"]\n", "s.toml:2: expected an objective that is a number"},
-    {"objectives = [\"mrps_per_mgate\"]\n", "s.toml:2: mrps_per_mgate needs the area"},
     {"subset = { method = \"halton\", designs = 3 }\n", "s.toml:2: expected sobol or random, got 'halton'"},
     {"subset = { designs = 3 }\n", "s.toml:2: expected subset = "},
     {"constraints = [\"rtu.ray_slots\"]\n", "s.toml:2: constraint 'rtu.ray_slots': expected a comparison"},
@@ -215,7 +225,7 @@ TEST(SweepFile, ScenesMustBeThere) {
     EXPECT_THAT(fault("\nscenes = []"), HasSubstr("s.toml:2: scenes: expected at least one"));
     EXPECT_THAT(fault("scenes = [\"gone.glb\"]"), HasSubstr("s.toml:1: gone.glb: "));
     EXPECT_THAT(fault("scenes = [\"builtin\", \"builtin\"]"), HasSubstr("two scenes are called 'builtin'"));
-    EXPECT_THAT(fault("scenes = [{ scene = \"builtin\" }]"), HasSubstr("got no rays"));
+    EXPECT_THAT(fault("scenes = [{ scene = \"builtin\", kind = \"any\" }]"), HasSubstr("got no rays"));
     EXPECT_THAT(fault("scenes = [{ rays = \"a.npy\" }]"), HasSubstr("got no scene"));
 }
 

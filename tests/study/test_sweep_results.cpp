@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "model/error.hpp"
+#include "study/area/area_objective.hpp"
 #include "study/report/result_diff.hpp"
 #include "study/sweep/child_process.hpp"
 #include "study/sweep/sweep_database.hpp"
@@ -29,9 +30,10 @@ class SweepResults : public testing::Test {
         SweepResult result;
         result.point = plan.points[point].id;
         result.cpu_seconds = 0.5;
-        std::vector<std::uint64_t> counts(sweep_counts().size(), 10);
+        std::vector<std::optional<std::uint64_t>> counts(sweep_counts().size(), 10);
         counts[6] = cycles;
-        result.rows = {{"primary", counts}, {"total", counts}};
+        for (const char* workload : {"primary", "total"})
+            result.rows.push_back({workload, "cycle", double(cycles), double(cycles), counts});
         return result;
     }
     static SweepPlan plan() {
@@ -65,6 +67,9 @@ TEST_F(SweepResults, ResultsSurviveTheirLine) {
     const SweepPlan sweep = plan();
     SweepResult before = result(sweep, 1, 77);
     before.paired_percent = 1.0 / 3;
+    before.rows[0].level = "analytic";
+    before.rows[0].counts[3].reset();
+    before.rows[0].cycles_high.reset();
     const SweepResult after = parse_sweep_result(to_json_line(before));
     EXPECT_EQ(to_json_line(after), to_json_line(before));
     EXPECT_EQ(after.rows[1].counts, before.rows[1].counts);
@@ -144,13 +149,18 @@ TEST_F(SweepResults, TheViewComputesTheMeasures) {
     journal.add(to_json_line(result(sweep, 0, 40)));
     static_cast<void>(database.import_journals(folder_.path()));
     SqlStatement row = database.sql().prepare(
-        "SELECT mrps, bytes_per_ray, box_utilisation, pair_utilisation FROM results WHERE workload = "
+        "SELECT mrps, bytes_per_ray, box_utilisation, pair_utilisation, mrps_low, mrps_high, mgates, "
+        "mrps_per_mgate FROM results WHERE workload = "
         "'total'");
     ASSERT_TRUE(row.next());
     EXPECT_DOUBLE_EQ(row.real(0), 10.0 / 40 * 1000);         // rays / cycles * MHz
     EXPECT_DOUBLE_EQ(row.real(1), 2.0);                      // (10 + 10) bytes / 10 rays
     EXPECT_DOUBLE_EQ(row.real(2), 100.0 * 10 / (40.0 * 4));  // of 4 lanes
     EXPECT_DOUBLE_EQ(row.real(3), 100.0 * 10 / 40);
+    EXPECT_DOUBLE_EQ(row.real(4), row.real(0)) << "every ray: no interval";
+    EXPECT_DOUBLE_EQ(row.real(5), row.real(0));
+    EXPECT_DOUBLE_EQ(row.real(6), machine_gates(sweep.designs[0].config) / 1e6);
+    EXPECT_DOUBLE_EQ(row.real(7), row.real(0) / row.real(6));
 }
 
 TEST(SweepFront, HasWhatNoOtherBeats) {
