@@ -90,7 +90,7 @@ std::string part_advice(const RunCases& cases, const sim::Config& config) {
             next = text_of(order[1].part, config).name;
         }
     }
-    const std::string change = fmt::format("Change: {} ({}).", text.more, now(text.key, config));
+    std::string change = fmt::format("Change: {} ({}).", text.more, now(text.key, config));
     if (gain == 0) return change;
     return fmt::format("{} It gives at most {:.2f} times the rate: then {} would be full.", change, gain,
                        next);
@@ -177,6 +177,7 @@ std::vector<PageFinding> limits(const SceneReport& report, const sim::Config& co
         cases[{limit, limit == RunLimit::Part ? busiest(one.uses).part : ""}].push_back(std::move(one));
     }
     std::vector<PageFinding> findings;
+    findings.reserve(cases.size());
     for (const auto& [limit, same] : cases) findings.push_back(described(limit.first, same, config));
     return findings;
 }

@@ -39,7 +39,7 @@ export async function withBrowser(test) {
 export async function openPage(browser, file, options = {}) {
     const page = await browser.newPage({viewport: {width: 1100, height: 900}, ...options});
     page.errors = [];
-    page.setDefaultTimeout(8000);
+    page.setDefaultTimeout(30_000);
     page.on("pageerror", error => page.errors.push(error.message));
     page.on("console", message => { if (message.type() !== "log") page.errors.push(message.text()); });
     page.on("request", request => {

@@ -101,7 +101,7 @@ await withBrowser(async ({browser, folder, rtusim}) => {
         }
         assert.deepEqual(page.errors, []);
         console.log(`${count} points: open and drawn in ${opened} ms, filtered in ${took} ms`);
-        assert.ok(opened < 10_000 && took < 5000, "responsive, even where other work takes the time");
+        assert.ok(opened < 30_000 && took < 10_000, "responsive, even where other work takes the time");
         await page.close();
     }
 });
