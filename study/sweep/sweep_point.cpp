@@ -77,13 +77,19 @@ SweepRow row_of(const WorkloadReport& workload) {
     return row;
 }
 
+// Cycles are whole, so that the interval may have to reach a fraction further.
 SweepRow row_of(const std::string& workload, const LevelResult& result) {
     const CycleEstimate& estimate = result.estimate;
-    SweepRow row{workload, result.level, estimate.low * estimate.rays};
-    if (std::isfinite(estimate.high)) row.cycles_high = estimate.high * estimate.rays;
+    const double cycles = std::round(estimate.cycles_per_ray * estimate.rays);
+    SweepRow row{workload, result.level, std::min(cycles, estimate.low * estimate.rays)};
+    if (std::isfinite(estimate.high)) row.cycles_high = std::max(cycles, estimate.high * estimate.rays);
+    if (result.level == to_string(FidelityLevel::Cycle)) {
+        row.cycles_low = cycles;
+        row.cycles_high = cycles;
+    }
     row.counts.resize(counts.size());
     row.counts[ray_count_index] = std::uint64_t(std::llround(estimate.rays));
-    row.counts[cycles_index] = std::uint64_t(std::llround(estimate.cycles_per_ray * estimate.rays));
+    row.counts[cycles_index] = std::uint64_t(cycles);
     return row;
 }
 

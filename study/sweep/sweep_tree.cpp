@@ -1,5 +1,6 @@
 #include "study/sweep/sweep_tree.hpp"
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -120,6 +121,9 @@ void prepare_tree(const RunOptions& options, const SceneSource& source, TreeCont
                      {"held_bytes", held_bytes},
                      {"width", image.width},
                      {"depth", image.depth},
+                     {"bounds",
+                      {image.bounds.lo.x, image.bounds.lo.y, image.bounds.lo.z, image.bounds.hi.x,
+                       image.bounds.hi.y, image.bounds.hi.z}},
                      {"size_bytes", image.size_bytes()},
                      {"node_count", image.node_count},
                      {"leaf_count", image.leaf_count},
@@ -139,6 +143,8 @@ SweepTree::SweepTree(const fs::path& folder, const std::string& name) {
     const Json facts = read_facts(folder, name);
     image_.width = facts.at("width");
     image_.depth = facts.at("depth");
+    const auto bounds = facts.at("bounds").get<std::array<float, 6>>();
+    image_.bounds = {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
     image_.node_count = facts.at("node_count");
     image_.leaf_count = facts.at("leaf_count");
     image_.pair_count = facts.at("pair_count");
