@@ -76,8 +76,14 @@ void read_scene(const Json& json, SceneReport& report) {
                       count(pairing, "single_count"),
                       0};
     const Json& bvh = json.at("bvh");
-    report.bvh = {std::uint32_t(count(bvh, "width")), count(bvh, "node_count"), count(bvh, "leaf_count"),
-                  count(bvh, "image_bytes"), 0};
+    report.bvh = {std::uint32_t(count(bvh, "width")),
+                  text(bvh, "node_format"),
+                  count(bvh, "node_bytes"),
+                  count(bvh, "node_count"),
+                  count(bvh, "leaf_count"),
+                  count(bvh, "image_bytes"),
+                  0,
+                  bvh.contains("extra_leaf_count") ? count(bvh, "extra_leaf_count") : 0};
 }
 
 }  // namespace

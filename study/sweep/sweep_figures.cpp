@@ -151,10 +151,12 @@ void divide_by_best(std::vector<Sample>& samples, const SweepObjective& measure)
     }
 }
 
-// A chart that does not show by which column its rows differ from their bases shows the other rows only.
+// A chart that does not show by which column its rows differ from their bases shows the other rows only, and
+// so does one that chooses them by such a column.
 bool shows_bases(const SweepChart& chart) {
-    return std::ranges::any_of(chart.base,
-                               [&](const auto& column) { return chart.has_column(column.first); });
+    const auto is_shown = [&](const auto& column) { return chart.has_column(column.first); };
+    const auto is_chosen = [&](const auto& column) { return has(chart.where, column.first); };
+    return std::ranges::any_of(chart.base, is_shown) && std::ranges::none_of(chart.base, is_chosen);
 }
 
 // Divides every sample by its base; those without one are left out.

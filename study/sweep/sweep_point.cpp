@@ -74,8 +74,11 @@ constexpr std::array counts = std::to_array<SweepCount>({
      [](const WorkloadReport& w) { return sum(w, "dram", "write_bytes"); }},
 });
 
-constexpr std::size_t ray_count_index = 0, cycles_index = 6;
-static_assert(counts[ray_count_index].name == "ray_count" && counts[cycles_index].name == "cycles");
+constexpr std::size_t index_of(std::string_view name) {
+    return std::size_t(std::ranges::find(counts, name, &SweepCount::name) - counts.begin());
+}
+constexpr std::size_t ray_count_index = index_of("ray_count"), cycles_index = index_of("cycles");
+static_assert(ray_count_index < counts.size() && cycles_index < counts.size());
 
 SweepRow row_of(const WorkloadReport& workload) {
     SweepRow row{workload.name, "cycle", double(workload.cycles), double(workload.cycles)};
@@ -83,13 +86,19 @@ SweepRow row_of(const WorkloadReport& workload) {
     return row;
 }
 
+// Cycles are whole, so that the interval may have to reach a fraction further.
 SweepRow row_of(const std::string& workload, const LevelResult& result) {
     const CycleEstimate& estimate = result.estimate;
-    SweepRow row{workload, result.level, estimate.low * estimate.rays};
-    if (std::isfinite(estimate.high)) row.cycles_high = estimate.high * estimate.rays;
+    const double cycles = std::round(estimate.cycles_per_ray * estimate.rays);
+    SweepRow row{workload, result.level, std::min(cycles, estimate.low * estimate.rays)};
+    if (std::isfinite(estimate.high)) row.cycles_high = std::max(cycles, estimate.high * estimate.rays);
+    if (result.level == to_string(FidelityLevel::Cycle)) {
+        row.cycles_low = cycles;
+        row.cycles_high = cycles;
+    }
     row.counts.resize(counts.size());
     row.counts[ray_count_index] = std::uint64_t(std::llround(estimate.rays));
-    row.counts[cycles_index] = std::uint64_t(std::llround(estimate.cycles_per_ray * estimate.rays));
+    row.counts[cycles_index] = std::uint64_t(cycles);
     return row;
 }
 

@@ -1,5 +1,6 @@
 #include "study/sweep/sweep_tree.hpp"
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -121,6 +122,9 @@ void prepare_tree(const RunOptions& options, const SceneSource& source, TreeCont
                      {"width", image.width},
                      {"node_format", std::uint32_t(image.format)},
                      {"depth", image.depth},
+                     {"bounds",
+                      {image.bounds.lo.x, image.bounds.lo.y, image.bounds.lo.z, image.bounds.hi.x,
+                       image.bounds.hi.y, image.bounds.hi.z}},
                      {"size_bytes", image.size_bytes()},
                      {"node_count", image.node_count},
                      {"leaf_count", image.leaf_count},
@@ -142,6 +146,8 @@ SweepTree::SweepTree(const fs::path& folder, const std::string& name) {
     image_.width = facts.at("width");
     image_.format = model::NodeFormat(facts.at("node_format").get<std::uint32_t>());
     image_.depth = facts.at("depth");
+    const auto bounds = facts.at("bounds").get<std::array<float, 6>>();
+    image_.bounds = {{bounds[0], bounds[1], bounds[2]}, {bounds[3], bounds[4], bounds[5]}};
     image_.node_count = facts.at("node_count");
     image_.leaf_count = facts.at("leaf_count");
     image_.pair_count = facts.at("pair_count");
