@@ -67,7 +67,7 @@ TEST_F(MailboxCommand, HasARowForEachTreeWorkloadAndMailbox) {
     // What a mailbox finds is what is not tested again.
     const auto row = [&](std::string_view mailbox, int entries) {
         for (const Json& each : rows) {
-            if (each["workload"] == "diffuse" && each["splits"] == "spatial" && each["mailbox"] == mailbox &&
+            if (each["workload"] == "primary" && each["splits"] == "spatial" && each["mailbox"] == mailbox &&
                 each["entries"] == entries) {
                 return each;
             }
@@ -117,7 +117,7 @@ TEST_F(MailboxCommand, ChecksARunWithSplitsAndMailbox) {
     const Json report = Json::parse(checked.out);
     EXPECT_EQ(report["check"]["mismatches"], 0);
     EXPECT_GT(report["bvh"]["extra_leaf_count"], 0);
-    EXPECT_GT(report["workloads"][2]["units"]["scheduler"]["counters"]["mailbox_hits"], 0);
+    EXPECT_GT(report["workloads"][0]["units"]["scheduler"]["counters"]["mailbox_hits"], 0);
     expect_refusal({"run", "needles.glb", "--fidelity", "sampled", "--set", "rtu.mailbox.entries=4"},
                    "mailbox");
 }
