@@ -43,12 +43,6 @@ constexpr std::array counts = std::to_array<SweepCount>({
     {"hit_count", "rays", "rays with a hit", field<&WorkloadReport::hit_count>},
     {"node_visits", "nodes", "inner nodes fetched and tested", field<&WorkloadReport::node_visits>},
     {"box_tests", "tests", "ray-box tests", field<&WorkloadReport::box_tests>},
-    {"box_hits", "tests", "of those, boxes that the ray enters",
-     [](const WorkloadReport& w) { return sum(w, "box", "box_hits"); }},
-    {"extra_box_hits", "tests", "of those, entered because of quantisation only",
-     [](const WorkloadReport& w) { return sum(w, "box", "extra_box_hits"); }},
-    {"node_fetch_bytes", "bytes", "of the nodes asked for",
-     [](const WorkloadReport& w) { return sum(w, "scheduler", "node_fetch_bytes"); }},
     {"pair_tests", "tests", "pairs and lone triangles tested", field<&WorkloadReport::pair_tests>},
     {"triangle_tests", "tests", "triangles in them", field<&WorkloadReport::triangle_tests>},
     {"cycles", "cycles", "first ray offered to last hit taken", field<&WorkloadReport::cycles>},
@@ -72,6 +66,12 @@ constexpr std::array counts = std::to_array<SweepCount>({
      [](const WorkloadReport& w) { return sum(w, "dram", "read_bytes"); }},
     {"dram_write_bytes", "bytes", "written to DRAM",
      [](const WorkloadReport& w) { return sum(w, "dram", "write_bytes"); }},
+    {"box_hits", "tests", "of those, boxes that the ray enters",
+     [](const WorkloadReport& w) { return sum(w, "box", "box_hits"); }},
+    {"extra_box_hits", "tests", "of those, entered because of quantisation only",
+     [](const WorkloadReport& w) { return sum(w, "box", "extra_box_hits"); }},
+    {"node_fetch_bytes", "bytes", "of the nodes asked for",
+     [](const WorkloadReport& w) { return sum(w, "scheduler", "node_fetch_bytes"); }},
 });
 
 constexpr std::size_t index_of(std::string_view name) {
