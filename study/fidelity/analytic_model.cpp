@@ -102,14 +102,10 @@ double unloaded_cycles(const sim::Config& config, const ProfileBlock& block) {
 
 namespace {
 
-ProfileBlock without_first_touches(ProfileBlock block) {
-    block.first_touches_per_ray = block.held_up_by_first_touches_per_ray = 0;
-    return block;
-}
-
 ProfileBlock without_misses(ProfileBlock block) {
-    block.l1_misses_per_ray = block.l2_misses_per_ray = block.held_up_cycles_per_ray = 0;
-    return without_first_touches(block);
+    block.l1_misses_per_ray = block.l2_misses_per_ray = block.first_touches_per_ray = 0;
+    block.held_up_cycles_per_ray = block.held_up_by_first_touches_per_ray = 0;
+    return block;
 }
 
 // Of the whole machine.
@@ -133,14 +129,12 @@ void add(std::vector<Demand>& sums, const Demand& part, double rays) {
 
 AnalyticResult analyse(const sim::Config& config, const WorkloadProfile& profile) {
     AnalyticResult result;
-    double cycles = 0, cycles_without_misses = 0, cycles_without_first_touches = 0;
+    double cycles = 0, cycles_without_misses = 0;
     std::vector<Demand> sums;
     for (const ProfileBlock& block : profile.blocks) {
         if (block.rays <= 0) continue;
         cycles += block.rays * cycles_per_ray(config, profile, block);
         cycles_without_misses += block.rays * cycles_per_ray(config, profile, without_misses(block));
-        cycles_without_first_touches +=
-            block.rays * cycles_per_ray(config, profile, without_first_touches(block));
         result.rays += block.rays;
         for (const Demand& part : demands(config, profile, block)) add(sums, part, block.rays);
     }
@@ -150,11 +144,9 @@ AnalyticResult analyse(const sim::Config& config, const WorkloadProfile& profile
                         unloaded_cycles(config, profile.blocks.back()) / 2;
     cycles += ends;
     cycles_without_misses += ends;
-    cycles_without_first_touches += ends;
     result.ends_share = ends / cycles;
     result.cycles_per_ray = cycles / result.rays;
     result.memory_share = 1 - cycles_without_misses / cycles;
-    result.first_touch_share = 1 - cycles_without_first_touches / cycles;
     result.bottleneck = std::ranges::max_element(sums, {}, &Demand::cycles_per_ray)->unit;
     return result;
 }

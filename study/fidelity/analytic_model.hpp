@@ -28,7 +28,6 @@ struct AnalyticResult {
     double rays = 0;
     std::string_view bottleneck;   ///< the part with the largest demand, over all rays
     double memory_share = 0;       ///< of the cycles, that a cache without misses would save, 0 to 1
-    double first_touch_share = 0;  ///< of the cycles, that first touches cost, 0 to 1
     double ends_share = 0;         ///< of the cycles, in which the machine fills or runs empty, 0 to 1
 };
 

@@ -8,6 +8,7 @@
 #include "study/cpu_time.hpp"
 #include "study/fidelity/analytic_model.hpp"
 #include "study/fidelity/fidelity_levels.hpp"
+#include "study/fidelity/unloaded_latency.hpp"
 
 // The levels that simulate no cycle, and the choice between all.
 
@@ -26,10 +27,12 @@ double analytic_allowance(const AnalyticResult& result) {
 // Of the rays: a first pass of more is not worth its risk, that every ray follows.
 constexpr double most_of_auto = 1.0 / 12;
 
-// What first touches cost at most, of the cycles of a run without them.
-double first_touch_allowance(const AnalyticResult& result) {
-    const double share = (1 + allowed_of_memory) * result.first_touch_share;
-    return share < 1 ? share / (1 - share) : std::numeric_limits<double>::infinity();
+// What first touches cost at most, of the cycles of a run: every line of the image fetched alone, all else
+// waiting.
+double first_touch_allowance(const sim::Config& config, const model::MemoryImage& image,
+                             const AnalyticResult& found) {
+    const double lines = std::ceil(double(image.size_bytes()) / config.l2.line_bytes);
+    return lines * dram_cycles(config) / (found.rays * found.cycles_per_ray);
 }
 
 RayWork mean_work(const WorkloadProfile& profile) {
@@ -114,7 +117,7 @@ bool fits_l2(const sim::Config& config, const model::MemoryImage& image) {
 LevelResult simulate_for_auto(const sim::Config& config, const model::MemoryImage& image,
                               const RayPopulation& population, SampledOptions options,
                               const AnalyticResult& found) {
-    const double touches = first_touch_allowance(found);
+    const double touches = first_touch_allowance(config, image, found);
     if (fits_l2(config, image) && touches <= options.tolerance / 4) options.dram_allowance = touches;
     LevelResult result = run_sampled(config, image, population, options);
     if (options.dram_allowance && result.level == "sampled") {

@@ -296,21 +296,6 @@ TEST(AnalyticModel, NoRunIsFasterThanItsBusiestUnit) {
     EXPECT_DOUBLE_EQ(least_cycles(config, work), 5.5);
 }
 
-TEST(AnalyticModel, FirstTouchesAreAPartOfTheMisses) {
-    WorkloadProfile profile = uniform_profile(20, 2);
-    ProfileBlock& block = profile.blocks.front();
-    block.l1_misses_per_ray = block.first_touches_per_ray = 20;
-    sim::Config config;
-    config.dram.channels = 1;
-    const AnalyticResult only = analyse(config, profile);
-    EXPECT_GT(only.first_touch_share, 0.5);
-    EXPECT_LE(only.first_touch_share, only.memory_share);
-    block.l2_misses_per_ray = 20;
-    EXPECT_LT(analyse(config, profile).first_touch_share, only.first_touch_share);
-    block.first_touches_per_ray = 0;
-    EXPECT_EQ(analyse(config, profile).first_touch_share, 0);
-}
-
 TEST(AnalyticModel, OneSlotTakesItsLatency) {
     const WorkloadProfile profile = uniform_profile(20, 2);
     sim::Config config;
