@@ -1,7 +1,9 @@
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -38,6 +40,18 @@ class CommandLine : public testing::Test {
     ProcessResult run_ball(std::vector<std::string> more = {}) const {
         more.insert(more.begin(), {"run", "ball.glb", "--resolution", "16x16"});
         return run(more);
+    }
+    /// Bad input (1) or wrong usage (2): that exit code, one line on standard error that holds `text`,
+    /// nothing on standard output, and the same files as before.
+    void expect_refusal(const std::vector<std::string>& arguments, const std::string& text,
+                        int exit_code = 1) const {
+        const std::vector<std::string> before = names();
+        const ProcessResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, exit_code) << result.err;
+        EXPECT_THAT(result.err, testing::AllOf(testing::StartsWith("rtusim: "), testing::HasSubstr(text)));
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        EXPECT_THAT(result.out, testing::IsEmpty());
+        EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
     }
     std::vector<std::string> names() const {
         std::vector<std::string> result;

@@ -61,13 +61,8 @@ TEST_F(AreaCommand, WritesPicturesAndAPage) {
 
 TEST_F(AreaCommand, RefusesBadInputInOneLine) {
     const auto refuses = [&](std::vector<std::string> arguments, int code, const std::string& text) {
-        const std::vector<std::string> before = names();
         arguments.insert(arguments.begin(), "area");
-        const ProcessResult result = run(arguments);
-        EXPECT_EQ(result.exit_code, code) << result.err;
-        EXPECT_THAT(result.err, AllOf(StartsWith("rtusim: "), HasSubstr(text)));
-        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-        EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
+        expect_refusal(arguments, text, code);
     };
     refuses({"nobody.glb"}, 1, "nobody.glb");
     refuses({"ball.glb", "ball.glb"}, 1, "two scenes");

@@ -19,16 +19,6 @@ using testing::UnorderedElementsAre;
 
 class CommandLineErrors : public CommandLine {
   protected:
-    // Exit code 1, one line on standard error that holds `text`, nothing on standard output, no new file.
-    void expect_bad_input(const std::vector<std::string>& arguments, const std::string& text) const {
-        const std::vector<std::string> before = names();
-        const ProcessResult result = run(arguments);
-        EXPECT_EQ(result.exit_code, 1) << result.err;
-        EXPECT_THAT(result.err, AllOf(StartsWith("rtusim: "), HasSubstr(text)));
-        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-        EXPECT_THAT(result.out, IsEmpty());
-        EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
-    }
     // Runs a line of shell in which $RTUSIM is the program and $RUN a quick run of the small scene.
     ProcessResult run_shell(const std::string& line) const {
         const std::string names = std::string("RTUSIM=") + RTUSIM_EXECUTABLE +
@@ -67,27 +57,27 @@ TEST_F(CommandLineErrors, AnUnknownCommandIsNamed) {
 }
 
 TEST_F(CommandLineErrors, BadValuesAreNamedInOneLine) {
-    expect_bad_input({"run", "ball.glb", "--pairing", "window:1"}, "window:1");
-    expect_bad_input({"run", "ball.glb", "--edge-identity", "colour"}, "colour");
-    expect_bad_input({"run", "ball.glb", "--workload", "primary,specular"}, "specular");
-    expect_bad_input({"run", "ball.glb", "--workload", "primary,primary"}, "twice");
-    expect_bad_input({"run", "ball.glb", "--workload", ""}, "workload");
-    expect_bad_input({"run", "ball.glb", "--preset", "abacus"}, "abacus");
-    expect_bad_input({"run", "ball.glb", "--set", "rtu.wings=2"}, "rtu.wings");
-    expect_bad_input({"run", "ball.glb", "--clock-mode", "slow"}, "slow");
-    expect_bad_input({"config", "--preset", "abacus"}, "abacus");
+    expect_refusal({"run", "ball.glb", "--pairing", "window:1"}, "window:1");
+    expect_refusal({"run", "ball.glb", "--edge-identity", "colour"}, "colour");
+    expect_refusal({"run", "ball.glb", "--workload", "primary,specular"}, "specular");
+    expect_refusal({"run", "ball.glb", "--workload", "primary,primary"}, "twice");
+    expect_refusal({"run", "ball.glb", "--workload", ""}, "workload");
+    expect_refusal({"run", "ball.glb", "--preset", "abacus"}, "abacus");
+    expect_refusal({"run", "ball.glb", "--set", "rtu.wings=2"}, "rtu.wings");
+    expect_refusal({"run", "ball.glb", "--clock-mode", "slow"}, "slow");
+    expect_refusal({"config", "--preset", "abacus"}, "abacus");
     // What is quoted in a message may hold anything and still must not break its line.
     for (const char* option :
          {"--pairing", "--edge-identity", "--workload", "--preset", "--set", "--clock-mode", "--resolution",
           "--seed", "--config", "--camera", "--json", "--csv"}) {
-        expect_bad_input({"run", "ball.glb", option, "no\n/such\x1b thing"}, "thing");
+        expect_refusal({"run", "ball.glb", option, "no\n/such\x1b thing"}, "thing");
     }
     for (const char* resolution :
          {"0x5", "16", "16x", "x16", "16x16x16", "-1x5", "16385x1", "16384x4097", "1x99999999999999999999"}) {
-        expect_bad_input({"run", "ball.glb", "--resolution", resolution}, resolution);
+        expect_refusal({"run", "ball.glb", "--resolution", resolution}, resolution);
     }
     for (const char* seed : {"-1", "x", "1.5", "18446744073709551616"}) {
-        expect_bad_input({"run", "ball.glb", std::string("--seed=") + seed}, seed);
+        expect_refusal({"run", "ball.glb", std::string("--seed=") + seed}, seed);
     }
 }
 
@@ -97,32 +87,32 @@ TEST_F(CommandLineErrors, BadFilesAreNamedInOneLine) {
     static_cast<void>(folder_.write("cut.glb", content("ball.glb").substr(0, 500)));
     static_cast<void>(folder_.write("bad.toml", "[ball]\neye = 3\n"));
     for (const char* name : {"missing.glb", "empty.glb", "text.glb", "cut.glb"}) {
-        expect_bad_input({"run", name, "--json", "out.json", "--csv", "out.csv", "--image", "out"}, name);
-        expect_bad_input({"run", "ball.glb", name, "--resolution", "8x8", "--json", "out.json"}, name);
+        expect_refusal({"run", name, "--json", "out.json", "--csv", "out.csv", "--image", "out"}, name);
+        expect_refusal({"run", "ball.glb", name, "--resolution", "8x8", "--json", "out.json"}, name);
     }
-    expect_bad_input({"run", folder_.path()}, "expected a file");
-    expect_bad_input({"run", "ball.glb", "--camera", "missing.toml"}, "missing.toml");
-    expect_bad_input({"run", "ball.glb", "--camera", "bad.toml"}, "bad.toml:2");
-    expect_bad_input({"run", "ball.glb", "--config", "bad.toml"}, "bad.toml:");
+    expect_refusal({"run", folder_.path()}, "expected a file");
+    expect_refusal({"run", "ball.glb", "--camera", "missing.toml"}, "missing.toml");
+    expect_refusal({"run", "ball.glb", "--camera", "bad.toml"}, "bad.toml:2");
+    expect_refusal({"run", "ball.glb", "--config", "bad.toml"}, "bad.toml:");
 }
 
 TEST_F(CommandLineErrors, BadOutputsAreFoundBeforeTheSimulation) {
-    expect_bad_input({"run", "ball.glb", "--json", "no/such/folder.json"}, "no/such/folder.json");
-    expect_bad_input({"run", "ball.glb", "--csv", "."}, ".: cannot write");
-    expect_bad_input({"run", "ball.glb", "--csv", "-"}, "-: only --json can go to standard output");
-    expect_bad_input({"run", "ball.glb", "--image", "ball.glb"}, "expected a folder");
-    expect_bad_input({"run", "ball.glb", "--json", "ball.glb"}, "would be overwritten");
+    expect_refusal({"run", "ball.glb", "--json", "no/such/folder.json"}, "no/such/folder.json");
+    expect_refusal({"run", "ball.glb", "--csv", "."}, ".: cannot write");
+    expect_refusal({"run", "ball.glb", "--csv", "-"}, "-: only --json can go to standard output");
+    expect_refusal({"run", "ball.glb", "--image", "ball.glb"}, "expected a folder");
+    expect_refusal({"run", "ball.glb", "--json", "ball.glb"}, "would be overwritten");
     static_cast<void>(folder_.write("machine.toml", ""));
-    expect_bad_input({"run", "ball.glb", "--config", "machine.toml", "--csv", "./machine.toml"},
-                     "would be overwritten");
-    expect_bad_input({"run", "ball.glb", "--json", "out", "--csv", "./out"}, "same file");
-    expect_bad_input({"run", "ball.glb", "ball.glb", "--image", "out"}, "two scenes are called 'ball'");
+    expect_refusal({"run", "ball.glb", "--config", "machine.toml", "--csv", "./machine.toml"},
+                   "would be overwritten");
+    expect_refusal({"run", "ball.glb", "--json", "out", "--csv", "./out"}, "same file");
+    expect_refusal({"run", "ball.glb", "ball.glb", "--image", "out"}, "two scenes are called 'ball'");
 }
 
 TEST_F(CommandLineErrors, AFullDiskIsReportedAndLeavesNothing) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-    expect_bad_input({"run", "ball.glb", "--resolution", "8x8", "--json", "/dev/full", "--csv", "out.csv"},
-                     "/dev/full: cannot write: No space left on device");
+    expect_refusal({"run", "ball.glb", "--resolution", "8x8", "--json", "/dev/full", "--csv", "out.csv"},
+                   "/dev/full: cannot write: No space left on device");
 }
 
 TEST_F(CommandLineErrors, AnInterruptEndsTheRunAtOnceWithoutAFile) {

@@ -58,15 +58,9 @@ TEST_F(MethodsCommand, RefusesBadInputInOneLine) {
         {{"ball.glb", "--json", "ball.glb"}, "is an input of this run"},
     };
     for (const auto& [arguments, text] : cases) {
-        const std::vector<std::string> before = names();
         std::vector<std::string> all{"methods"};
         all.insert(all.end(), arguments.begin(), arguments.end());
-        const ProcessResult result = run(all);
-        EXPECT_EQ(result.exit_code, 1) << text;
-        EXPECT_THAT(result.err, AllOf(StartsWith("rtusim: "), HasSubstr(text)));
-        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-        EXPECT_THAT(result.out, IsEmpty());
-        EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
+        expect_refusal(all, text);
     }
     EXPECT_EQ(run({"methods", "--rays", "0"}).exit_code, 2);
 }

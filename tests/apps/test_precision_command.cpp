@@ -53,12 +53,7 @@ TEST_F(PrecisionCommand, WritesJsonAndCsvThatDoNotDependOnThreads) {
 
 TEST_F(PrecisionCommand, RefusesBadInputInOneLine) {
     const auto refuses = [&](const std::vector<std::string>& arguments, int code, const std::string& text) {
-        const std::vector<std::string> before = names();
-        const ProcessResult result = run(arguments);
-        EXPECT_EQ(result.exit_code, code) << result.err;
-        EXPECT_THAT(result.err, AllOf(StartsWith("rtusim: "), HasSubstr(text)));
-        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-        EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
+        expect_refusal(arguments, text, code);
     };
     refuses({"precision", "ball.glb", "--method", "wood"}, 1, "woop_top_left");
     refuses({"precision", "nobody.glb"}, 1, "nobody.glb");

@@ -59,13 +59,7 @@ TEST_F(StreamCommand, WritesJsonAndCsvThatAreTheSameEveryTime) {
 TEST_F(StreamCommand, RefusesBadInputInOneLine) {
     const auto refuses = [&](std::vector<std::string> more, int code, const std::string& text) {
         more.insert(more.begin(), {"stream", "ball.glb"});
-        const std::vector<std::string> before = names();
-        const ProcessResult result = run(more);
-        EXPECT_EQ(result.exit_code, code) << result.err;
-        EXPECT_THAT(result.err, AllOf(StartsWith("rtusim: "), HasSubstr(text)));
-        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-        EXPECT_THAT(result.out, IsEmpty());
-        EXPECT_EQ(names(), before);
+        expect_refusal(more, text, code);
     };
     refuses({"--mode", "bulk"}, 1, "mode: expected one of direct, batched, mixed, resident, got 'bulk'");
     refuses({"--mode", "mixed,mixed"}, 1, "'mixed' is given twice");

@@ -70,12 +70,7 @@ class SweepCommand : public CommandLine {
     }
     void expect_fault(const std::string& text, const std::string& error) const {
         static_cast<void>(folder_.write("bad.toml", text));
-        const std::vector<std::string> before = names();
-        const ProcessResult result = run({"sweep", "bad.toml"});
-        EXPECT_EQ(result.exit_code, 1);
-        EXPECT_THAT(result.err, AllOf(StartsWith("rtusim: "), HasSubstr(error)));
-        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-        EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
+        expect_refusal({"sweep", "bad.toml"}, error);
     }
 };
 

@@ -47,15 +47,9 @@ class TraceCommand : public CommandLine {
     Json replay_total(const std::string& file) const {
         return Json::parse(trace({"replay", file, "--json", "-"}))["total"];
     }
-    // Exit code 1 and one line that holds `text`; no new file.
     void expect_fault(std::vector<std::string> arguments, const std::string& text) const {
-        const std::vector<std::string> before = names();
         arguments.insert(arguments.begin(), "trace");
-        const ProcessResult result = run(arguments);
-        EXPECT_EQ(result.exit_code, 1) << result.err;
-        EXPECT_THAT(result.err, AllOf(StartsWith("rtusim: "), HasSubstr(text)));
-        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-        EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
+        expect_refusal(arguments, text);
     }
     ProcessResult shell(const std::string& line) const {
         const std::string program = std::string("RTUSIM=") + RTUSIM_EXECUTABLE + "; ";

@@ -57,13 +57,8 @@ TEST_F(ValidateCommand, RecordsWaves) {
 
 TEST_F(ValidateCommand, RefusesBadInputInOneLine) {
     const auto refuses = [&](std::vector<std::string> arguments, const std::string& text) {
-        const std::vector<std::string> before = names();
         arguments.insert(arguments.begin(), "validate");
-        const ProcessResult result = run(arguments);
-        EXPECT_EQ(result.exit_code, 1) << result.err;
-        EXPECT_THAT(result.err, AllOf(StartsWith("rtusim: "), HasSubstr(text)));
-        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-        EXPECT_THAT(names(), testing::UnorderedElementsAreArray(before));
+        expect_refusal(arguments, text);
     };
     refuses({"nobody.glb"}, "nobody.glb");
     refuses({"ball.glb", "--only", "bose"}, "bose");

@@ -68,7 +68,7 @@ TEST(ChartScript, QuotesWhateverNamesHold) {
 
 TEST(Chart, NamesRunNoCommands) {
     if (!has_gnuplot()) GTEST_SKIP() << no_gnuplot;
-    const std::filesystem::path made = std::filesystem::temp_directory_path() / "rtusim_chart_made_this";
+    const std::filesystem::path made = std::filesystem::path(testing::TempDir()) / "rtusim_chart_made_this";
     std::filesystem::remove(made);
     const std::string command = "touch " + made.string();
     Chart chart = line_chart();
