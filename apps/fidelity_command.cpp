@@ -18,6 +18,7 @@
 #include "sim/presets.hpp"
 #include "study/fidelity/fidelity_output.hpp"
 #include "study/output_file.hpp"
+#include "study/validate/rtl_reference.hpp"
 
 namespace rtu::apps {
 namespace {
@@ -56,7 +57,8 @@ void add_study_options(CLI::App& fidelity, Arguments& arguments) {
         fidelity.add_option(name, value, help)->type_name(type)->capture_default_str();
     };
     add("--preset", arguments.presets, "machines, of those of `rtusim config --preset`", "LIST");
-    add("--level", arguments.levels, "of counts, analytic, sampled, auto", "LIST");
+    add("--level", arguments.levels,
+        "of counts, analytic, sampled, auto, and rtl: 48 x 48 pixels on the machine of the RTL", "LIST");
     add("--workload", arguments.workloads, "rays, of primary, shadow, ao, diffuse, random", "LIST");
     add("--resolution", arguments.resolution, "picture size in pixels", "WxH");
     add("--tolerance", arguments.tolerance, "of sampled and auto, in % of MRPS, 0.6 to 50", "PCT");
@@ -93,6 +95,8 @@ std::vector<study::FidelityLevel> levels_of(const std::string& names) {
         if (levels.back() == study::FidelityLevel::Cycle) {
             throw Error("--level: cycle is what the others are compared with, and always there");
         }
+        // Throws where the RTL is not there: now rather than after the first scene.
+        if (levels.back() == study::FidelityLevel::Rtl) static_cast<void>(study::rtl_reference());
     }
     return levels;
 }

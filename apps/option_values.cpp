@@ -108,10 +108,6 @@ study::RayInput parse_ray_input(const std::string& file, const std::string& form
 }
 
 study::FidelityLevel parse_fidelity(std::string_view text) {
-    if (text == "rtl") {
-        throw Error(
-            "--fidelity: rtl is not built into this command; cycles are compared with RTL by the tests");
-    }
     try {
         return study::parse_fidelity_level(text);
     } catch (const Error& error) {

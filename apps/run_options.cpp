@@ -76,7 +76,8 @@ void add_fidelity_options(CLI::App& command, RunArguments& arguments) {
     command
         .add_option("--fidelity", arguments.fidelity,
                     "cycle: every ray simulated; sampled: some, with a 95 % interval; analytic: none, a\n"
-                    "queueing model; counts: peak rates only; auto: the cheapest within the tolerance")
+                    "queueing model; counts: peak rates only; auto: the cheapest within the tolerance;\n"
+                    "rtl: few rays through the Verilated RTU")
         ->type_name("LEVEL")
         ->capture_default_str();
     command

@@ -24,21 +24,31 @@ double box_cycles_per_node(const sim::Config& config, const WorkloadProfile& pro
     return packed_cycles_per_node(nodes_with, config.rtu.box.boxes_per_cycle);
 }
 
-// For which a ray's surviving triangles hold hit units.
-double hit_unit_cycles(const sim::Config& config, const RayWork& work) {
-    const auto& pair = config.rtu.pair;
-    if (pair.hit_units == 0) return 0;
-    return work.better_hits * pair.hit_cycles + (work.survivors - work.better_hits) * pair.reject_cycles +
-           work.side_tests * pair.side_cycles;
-}
-
 // Cycles between two rays that the host hands to one RTU.
 double host_cycles(const sim::Config& config) {
     const auto rays_per_cycle = double(std::min(config.host.rays_per_cycle, config.rtu.count));
     return config.rtu.count / rays_per_cycle;
 }
 
+// Of one RTU, all of its hit units together.
+double hit_cycles(const sim::Config& config, const RayWork& work) {
+    const auto& pair = config.rtu.pair;
+    return pair.hit_units == 0 ? 0 : hit_unit_cycles(config, work) / (pair.hit_units * pair.testers);
+}
+
+double scheduler_cycles(const sim::Config& config, const RayWork& work) {
+    return (work.node_visits + work.leaf_visits) /
+           std::min(config.rtu.results_per_cycle, config.rtu.fetches_per_cycle);
+}
+
 }  // namespace
+
+double hit_unit_cycles(const sim::Config& config, const RayWork& work) {
+    const auto& pair = config.rtu.pair;
+    if (pair.hit_units == 0) return 0;
+    return work.better_hits * pair.hit_cycles + (work.survivors - work.better_hits) * pair.reject_cycles +
+           work.side_tests * pair.side_cycles;
+}
 
 std::vector<Demand> demands(const sim::Config& config, const WorkloadProfile& profile,
                             const ProfileBlock& block) {
@@ -47,14 +57,13 @@ std::vector<Demand> demands(const sim::Config& config, const WorkloadProfile& pr
     const auto& l1 = config.l1;
     const auto& l2 = config.l2;
     const auto& dram = config.dram;
-    const double visits = work.node_visits + work.leaf_visits;
     const double rtus = rtu.count;
     const double l1_misses = block.l1_misses_per_ray,
                  l2_misses = block.l2_misses_per_ray + block.first_touches_per_ray;
     const double row_cycles = dram.t_rp_cycles + dram.t_rcd_cycles + dram.t_cas_cycles;
     std::vector<Demand> parts{
         {"host", host_cycles(config)},
-        {"scheduler", visits / std::min(rtu.results_per_cycle, rtu.fetches_per_cycle)},
+        {"scheduler", scheduler_cycles(config, work)},
         {"box", work.node_visits * box_cycles_per_node(config, profile)},
         {"pair", pair_cycles(config, work)},
         {"l1 banks",
@@ -62,8 +71,7 @@ std::vector<Demand> demands(const sim::Config& config, const WorkloadProfile& pr
         {"l1 mshrs", (l1_misses * l2_cycles(config) + l2_misses * dram_cycles(config)) / l1.mshrs},
     };
     if (rtu.pair.hit_units > 0) {
-        parts.push_back(
-            {"hit units", hit_unit_cycles(config, work) / (rtu.pair.hit_units * rtu.pair.testers)});
+        parts.push_back({"hit units", hit_cycles(config, work)});
     }
     if (has_flat_memory(config)) {
         parts.push_back({"memory bus", rtus * l1_misses * flat_bus_cycles(config)});
@@ -143,10 +151,11 @@ AnalyticResult analyse(const sim::Config& config, const WorkloadProfile& profile
     return result;
 }
 
-double least_cycles_per_ray(const sim::Config& config, const RayWork& per_ray) {
-    const double lanes = config.rtu.box.boxes_per_cycle;
-    const double rtus = config.rtu.count;
-    return std::max({host_cycles(config), per_ray.box_tests / lanes, pair_cycles(config, per_ray)}) / rtus;
+double least_cycles(const sim::Config& config, const RayWork& work) {
+    return std::max({work.rays * host_cycles(config), scheduler_cycles(config, work),
+                     work.box_tests / config.rtu.box.boxes_per_cycle, pair_cycles(config, work),
+                     hit_cycles(config, work)}) /
+           config.rtu.count;
 }
 
 }  // namespace rtu::study

@@ -26,15 +26,19 @@ struct Demand {
 struct AnalyticResult {
     double cycles_per_ray = 0;  ///< of the whole machine
     double rays = 0;
-    std::string_view bottleneck;  ///< the part with the largest demand, over all rays
-    double memory_share = 0;      ///< of the cycles, that a cache without misses would save, 0 to 1
-    double ends_share = 0;        ///< of the cycles, in which the machine fills or runs empty, 0 to 1
+    std::string_view bottleneck;   ///< the part with the largest demand, over all rays
+    double memory_share = 0;       ///< of the cycles, that a cache without misses would save, 0 to 1
+    double ends_share = 0;         ///< of the cycles, in which the machine fills or runs empty, 0 to 1
 };
 
 /// Every block as a closed queueing network: `rtu.ray_slots` rays go round the parts of an RTU.
 [[nodiscard]] AnalyticResult analyse(const sim::Config& config, const WorkloadProfile& profile);
 
-/// Cycles per ray of the machine at least, by its peak rates alone: rays, nodes and pairs it takes a cycle.
-[[nodiscard]] double least_cycles_per_ray(const sim::Config& config, const RayWork& per_ray);
+/// Cycles that the hit units of one RTU are held for this work, over all of them; 0 without any.
+[[nodiscard]] double hit_unit_cycles(const sim::Config& config, const RayWork& work);
+
+/// Cycles that the whole machine takes for this work at least, by the peak rates of its units alone: those of
+/// the busiest one.
+[[nodiscard]] double least_cycles(const sim::Config& config, const RayWork& work);
 
 }  // namespace rtu::study

@@ -6,22 +6,31 @@
 #include <cmath>
 #include <vector>
 
+#include "study/fidelity/analytic_model.hpp"
+
 namespace rtu::study {
 namespace {
 
-constexpr std::size_t covariate_count = 3;
+constexpr std::size_t covariate_count = 5, least = 4;  // the place of the last one
 using Vector = std::array<double, covariate_count>;
 using Matrix = std::array<Vector, covariate_count>;
 
-// What the cycles of a window are taken to be linear in.
-Vector covariates(const sim::Config& config, const RayWork& work) {
+// What the cycles of a window are taken to be linear in: what keeps the units busy, and what keeps the
+// busiest of them busy, block by block. The hit units' part is that of `traced`.
+Vector covariates(const sim::Config& config, const RayWork& work, const RayWork& traced,
+                  double least_cycles) {
     const bool takes_whole_nodes = config.rtu.box.boxes_per_cycle >= config.bvh.width;
     const bool takes_whole_pairs = config.rtu.pair.mode != sim::PairMode::Single;
     return {work.rays, takes_whole_nodes ? work.node_visits : work.box_tests,
-            takes_whole_pairs ? work.pair_tests : work.triangle_tests};
+            takes_whole_pairs ? work.pair_tests : work.triangle_tests, hit_unit_cycles(config, traced),
+            least_cycles};
 }
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vector& a, const Vector& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < covariate_count; ++i) sum += a[i] * b[i];
+    return sum;
+}
 
 // The inverse of a symmetric, positive semi-definite matrix; directions that it does not span count as 0.
 Matrix inverse(Matrix m) {
@@ -66,9 +75,9 @@ struct Fit {
     Vector beta{};
     Matrix inverse{};
     double mean_residual = 0;
-    double residual_variance = 0;
+    std::vector<double> residuals;
+    double rank = 0;
     Vector mean_x{};
-    double degrees_of_freedom = 1;
 };
 
 Fit fit(const std::vector<Observation>& observations) {
@@ -84,19 +93,14 @@ Fit fit(const std::vector<Observation>& observations) {
         }
     }
     fit.inverse = inverse(xx);
-    double rank = 0;
     for (std::size_t i = 0; i < covariate_count; ++i) {
         fit.beta[i] = dot(fit.inverse[i], xy);
-        if (fit.inverse[i][i] > 0) ++rank;
+        if (fit.inverse[i][i] > 0) ++fit.rank;
     }
-    double squares = 0;
     for (const auto& [y, x] : observations) {
-        const double residual = y - dot(fit.beta, x);
-        fit.mean_residual += residual / n;
-        squares += residual * residual;
+        fit.residuals.push_back(y - dot(fit.beta, x));
+        fit.mean_residual += fit.residuals.back() / n;
     }
-    fit.degrees_of_freedom = std::max(1.0, n - rank);
-    fit.residual_variance = squares / fit.degrees_of_freedom;
     return fit;
 }
 
@@ -112,6 +116,101 @@ double variance_of_mean(const std::vector<double>& values) {
     return squares / (2 * (n - 1) * n);
 }
 
+// The variance of a residual, and the quantile of Student's t that says how well it is known.
+struct Spread {
+    double variance = 0;
+    double quantile = 0;
+};
+
+Spread narrower(const Spread& a, const Spread& b) {
+    return a.quantile * std::sqrt(a.variance) < b.quantile * std::sqrt(b.variance) ? a : b;
+}
+
+Spread spread_of_residuals(const Fit& fit) {
+    const auto n = double(fit.residuals.size());
+    const double freedom = std::max(1.0, n - fit.rank);
+    double squares = 0;
+    for (const double residual : fit.residuals) squares += residual * residual;
+    return {squares / freedom, t_quantile(freedom)};
+}
+
+// Of residuals in order, one from each of equal parts, what varies slowly along the run is no error; only
+// what neighbours differ by is. That is known less well: two thirds of the degrees of freedom [Wolter07, ch.
+// 8].
+Spread spread_of_neighbours(const Fit& fit) {
+    const auto n = double(fit.residuals.size());
+    if (n < 2) return spread_of_residuals(fit);
+    const double freedom = std::max(1.0, n - fit.rank);
+    return {variance_of_mean(fit.residuals) * n * n / freedom,
+            t_quantile(std::max(1.0, 2.0 / 3 * (n - 1) - fit.rank + 1))};
+}
+
+std::vector<WindowSample> in_order(std::span<const WindowMeasurement> passes) {
+    std::vector<WindowSample> windows;
+    for (const WindowMeasurement& pass : passes) {
+        windows.insert(windows.end(), pass.windows.begin(), pass.windows.end());
+    }
+    std::ranges::stable_sort(windows, {}, &WindowSample::begin);
+    return windows;
+}
+
+Fit fit_windows(const sim::Config& config, std::span<const WindowMeasurement> passes) {
+    std::vector<Observation> observations;
+    for (const WindowSample& window : in_order(passes)) {
+        const RayWork& traced = window.traced.work;
+        observations.push_back(
+            {window.cycles, covariates(config, window.work, traced, window.traced.least_cycles)});
+    }
+    return fit(observations);
+}
+
+// The least cycles of blocks, by their other work.
+Fit fit_blocks(const sim::Config& config, std::span<const WindowMeasurement> passes) {
+    std::vector<Observation> observations;
+    for (const WindowMeasurement& pass : passes) {
+        for (const TracedWork& block : pass.blocks) {
+            observations.push_back({block.least_cycles, covariates(config, block.work, block.work, 0)});
+        }
+    }
+    return fit(observations);
+}
+
+// Two phases [Cochran77, ch. 12]: the lattice tells the mean work, the blocks what the busiest unit takes
+// beyond what follows from the work.
+class Population {
+  public:
+    Population(const sim::Config& config, std::span<const WindowMeasurement> passes)
+        : blocks_(fit_blocks(config, passes)), block_length_(passes.back().block_length) {
+        for (const WindowMeasurement& pass : passes) {
+            for (const RayWork& work : pass.lattice) {
+                Vector& x = lattice_.emplace_back(covariates(config, work, work, 0));
+                x[least] = dot(blocks_.beta, x);
+            }
+        }
+        for (const Vector& x : lattice_)
+            for (std::size_t i = 0; i < covariate_count; ++i) mean_[i] += x[i] / double(lattice_.size());
+        mean_[least] += blocks_.mean_residual / block_length_;
+    }
+
+    [[nodiscard]] const Vector& mean() const { return mean_; }  // of a position
+
+    // Of the mean cost of a position. Rays that the lattice finds too many or too few change cycles and rays
+    // alike.
+    [[nodiscard]] double variance_of_cost(const Vector& beta, double cycles_per_ray) const {
+        std::vector<double> values;
+        values.reserve(lattice_.size());
+        for (const Vector& x : lattice_) values.push_back(dot(beta, x) - cycles_per_ray * x[0]);
+        const double of_block = beta[least] / block_length_;
+        return variance_of_mean(values) + of_block * of_block * variance_of_mean(blocks_.residuals);
+    }
+
+  private:
+    Fit blocks_;
+    double block_length_;
+    std::vector<Vector> lattice_;
+    Vector mean_{};
+};
+
 }  // namespace
 
 double t_quantile(double degrees_of_freedom) {
@@ -120,45 +219,33 @@ double t_quantile(double degrees_of_freedom) {
 
 CycleEstimate estimate_cycles(const sim::Config& config, std::span<const WindowMeasurement> passes) {
     const WindowMeasurement& latest = passes.back();
-    std::vector<Observation> observations;
-    std::vector<Vector> lattice;
-    for (const WindowMeasurement& pass : passes) {
-        for (const auto& [cycles, work] : pass.windows) {
-            observations.push_back({cycles, covariates(config, work)});
-        }
-        for (const RayWork& work : pass.lattice) lattice.push_back(covariates(config, work));
-    }
-    const Fit fitted = fit(observations);
+    const Fit fitted = fit_windows(config, passes);
+    const Population population(config, passes);
 
-    Vector mean{};  // of a position
-    for (const Vector& x : lattice)
-        for (std::size_t i = 0; i < covariate_count; ++i) mean[i] += x[i] / double(lattice.size());
     const auto length = double(latest.window_length);
     const auto windows = double(latest.middle_length) / length;  // in the middle
     Vector wanted{};                                             // of a window, in the mean
     Vector apart{};
     for (std::size_t i = 0; i < covariate_count; ++i) {
-        wanted[i] = mean[i] * length;
+        wanted[i] = population.mean()[i] * length;
         apart[i] = wanted[i] - fitted.mean_x[i];
     }
     const double middle_cycles = windows * (dot(fitted.beta, wanted) + fitted.mean_residual);
-    const double middle_rays = windows * wanted[0];
     CycleEstimate estimate;
-    estimate.rays = latest.first.work.rays + middle_rays + latest.last.work.rays;
+    estimate.rays = latest.first.work.rays + windows * wanted[0] + latest.last.work.rays;
     const double cycles = latest.first.cycles + middle_cycles + latest.last.cycles;
     if (estimate.rays <= 0) return estimate;
     estimate.cycles_per_ray = cycles / estimate.rays;
 
-    double leverage = 1 / double(observations.size());
+    double leverage = 1 / double(fitted.residuals.size());
     for (std::size_t i = 0; i < covariate_count; ++i) leverage += apart[i] * dot(fitted.inverse[i], apart);
-    // Rays that the lattice finds too many or too few change cycles and rays alike.
-    std::vector<double> values;
-    values.reserve(lattice.size());
-    for (const Vector& x : lattice) values.push_back(dot(fitted.beta, x) - estimate.cycles_per_ray * x[0]);
-    const double variance =
-        windows * windows *
-        (fitted.residual_variance * leverage + length * length * variance_of_mean(values));
-    const double half = t_quantile(fitted.degrees_of_freedom) * std::sqrt(variance) / estimate.rays;
+    // Each of the two is too large rather than too small.
+    const Spread spread = narrower(spread_of_residuals(fitted), spread_of_neighbours(fitted));
+    // The lattice has thousands of rays: the normal distribution will do for its part.
+    const double of_windows = spread.quantile * spread.quantile * spread.variance * leverage;
+    const double of_population =
+        1.96 * 1.96 * length * length * population.variance_of_cost(fitted.beta, estimate.cycles_per_ray);
+    const double half = windows * std::sqrt(of_windows + of_population) / estimate.rays;
     estimate.low = std::max(0.0, estimate.cycles_per_ray - half);
     estimate.high = estimate.cycles_per_ray + half;
     return estimate;

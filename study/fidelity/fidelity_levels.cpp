@@ -68,6 +68,8 @@ LevelResult run_level(FidelityLevel level, const sim::Config& config, const mode
             return run_sampled(config, image, population, options);
         case FidelityLevel::Cycle:
             return run_cycle(config, image, population);
+        case FidelityLevel::Rtl:
+            return run_rtl(config, image, population);
         case FidelityLevel::Auto:
             break;
     }
@@ -76,14 +78,14 @@ LevelResult run_level(FidelityLevel level, const sim::Config& config, const mode
 
 FidelityLevel parse_fidelity_level(std::string_view name) {
     for (const FidelityLevel level : {FidelityLevel::Counts, FidelityLevel::Analytic, FidelityLevel::Sampled,
-                                      FidelityLevel::Cycle, FidelityLevel::Auto}) {
+                                      FidelityLevel::Cycle, FidelityLevel::Rtl, FidelityLevel::Auto}) {
         if (name == to_string(level)) return level;
     }
-    throw Error("expected counts, analytic, sampled, cycle or auto, got '{}'", name);
+    throw Error("expected counts, analytic, sampled, cycle, rtl or auto, got '{}'", name);
 }
 
 std::string_view to_string(FidelityLevel level) {
-    constexpr std::array<std::string_view, 5> names{"counts", "analytic", "sampled", "cycle", "auto"};
+    constexpr std::array<std::string_view, 6> names{"counts", "analytic", "sampled", "cycle", "rtl", "auto"};
     return names[std::size_t(level)];
 }
 

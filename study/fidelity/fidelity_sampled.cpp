@@ -24,15 +24,18 @@ double density(const RayPopulation& population) {
 // Windows of four to eight times the rays in flight, so that the mix of two places at their ends weighs
 // little, after as many as let those of another place leave.
 WindowPlan first_plan(const sim::Config& config, const RayPopulation& population, std::uint64_t seed) {
-    const std::uint32_t settled = std::max(64U, 4 * config.rtu.ray_slots * config.rtu.count);
+    const std::uint32_t in_flight = config.rtu.ray_slots * config.rtu.count;
+    const std::uint32_t settled = std::max(64U, 4 * in_flight);
     const double positions_per_ray = 1 / std::max(density(population), 1.0 / 16);
     const auto positions = [&](double rays) { return std::uint32_t(std::lround(rays * positions_per_ray)); };
     WindowPlan plan;
-    plan.window_count = 16;
-    plan.window_length = positions(std::clamp(population.size() / 1024, settled, 2 * settled));
+    plan.block_length = std::max(16U, in_flight / 4);
+    const std::uint32_t length = positions(std::clamp(population.size() / 1024, settled, 2 * settled));
+    plan.window_length = (length + plan.block_length - 1) / plan.block_length * plan.block_length;
     plan.settling_rays = settled;
     plan.warm_length = population.row_length() + positions(settled);
     plan.lattice_stride = std::clamp(population.size() / 32768, 8U, 64U);
+    plan.block_stride = plan.lattice_stride * plan.block_length;
     plan.seed = seed;
     return plan;
 }
@@ -49,16 +52,17 @@ class Sampling {
           image_(image),
           population_(population),
           options_(options),
-          plan_(first_plan(config, population, options.seed)) {}
+          plan_(first_plan(config, population, options.seed)) {
+        plan_.has_image_in_l2 = options.dram_allowance.has_value();
+    }
 
     LevelResult run() {
         const double start = cpu_seconds();
         while (!is_precise()) {
-            simulated_length_ += simulated_length(plan_);
-            if (3 * simulated_length_ > population_.size()) {
+            if (!is_worth_while()) {
                 LevelResult all = run_cycle(config_, image_, population_);
                 all.cpu_seconds = cpu_seconds() - start;
-                all.account = fmt::format("every ray: enough samples would be more than a third of them");
+                all.account = "every ray: enough samples would be too large a part of them";
                 return all;
             }
             take_pass();
@@ -66,37 +70,48 @@ class Sampling {
         }
         const double allowance = bias_allowance * result_.estimate.cycles_per_ray;
         result_.estimate.low -= allowance;
-        result_.estimate.high += allowance;
+        result_.estimate.high += allowance + dram_allowance() * result_.estimate.cycles_per_ray;
         result_.level = "sampled";
         result_.account =
             fmt::format("{} windows of {} positions in {} {}, every {}th ray traced between them",
-                        window_count_, plan_.window_length, passes_.size(),
+                        plan_.taken.size(), plan_.window_length, passes_.size(),
                         passes_.size() == 1 ? "pass" : "passes", plan_.lattice_stride);
         result_.cpu_seconds = cpu_seconds() - start;
         return std::move(result_);
     }
 
   private:
-    [[nodiscard]] double wanted_half_width() const { return options_.tolerance - bias_allowance; }
+    [[nodiscard]] double dram_allowance() const { return options_.dram_allowance.value_or(0); }
+    [[nodiscard]] double wanted_half_width() const {
+        return options_.tolerance - bias_allowance - dram_allowance();
+    }
     [[nodiscard]] bool is_precise() const {
         return !passes_.empty() && result_.estimate.relative_half_width() <= wanted_half_width();
     }
 
+    // Samples cost little more than their share of the rays, but are in vain when every ray follows.
+    [[nodiscard]] bool is_worth_while() const {
+        const double next = double(simulated_length_ + simulated_length(plan_)) / population_.size();
+        return next <= (passes_.empty() ? 1 : 1.5) * options_.most_in_first_pass;
+    }
+
     void take_pass() {
+        simulated_length_ += simulated_length(plan_);
         passes_.push_back(measure_windows(config_, image_, population_, plan_));
-        window_count_ += plan_.window_count;
         result_.simulated_rays += passes_.back().simulated_rays;
         result_.traced_rays += passes_.back().traced_rays;
         result_.estimate = estimate_cycles(config_, passes_);
     }
 
-    // The interval shrinks with the root of the number of windows; some more, because its width is a guess
-    // too.
+    // Each share is cut into two, or as often in two as it takes, and each part without a window gets one:
+    // all together are one sample. The interval shrinks with the root of the number of windows, and more
+    // where neighbours are alike.
     void plan_next_pass() {
-        constexpr double margin = 1.1, most = 1e6;
+        for (const WindowSample& window : passes_.back().windows) plan_.taken.push_back(window.begin);
         const double ratio = result_.estimate.relative_half_width() / std::max(wanted_half_width(), 1e-6);
-        const double more = window_count_ * (margin * ratio * ratio - 1);
-        plan_.window_count = std::uint32_t(std::clamp(more, 8.0, most));
+        const double wanted = 0.35 * plan_.stratum_count * ratio * ratio;
+        do plan_.stratum_count *= 2;
+        while (plan_.stratum_count < wanted && plan_.stratum_count < population_.size());
         ++plan_.seed;
     }
 
@@ -106,12 +121,17 @@ class Sampling {
     SampledOptions options_;
     WindowPlan plan_;
     std::vector<WindowMeasurement> passes_;
-    double window_count_ = 0;
     std::uint64_t simulated_length_ = 0;
     LevelResult result_;
 };
 
 }  // namespace
+
+bool has_small_first_pass(const sim::Config& config, const RayPopulation& population,
+                          const SampledOptions& options) {
+    const std::uint64_t length = simulated_length(first_plan(config, population, options.seed));
+    return double(length) <= options.most_in_first_pass * population.size();
+}
 
 LevelResult run_sampled(const sim::Config& config, const model::MemoryImage& image,
                         const RayPopulation& population, const SampledOptions& options) {

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "study/cpu_time.hpp"
 #include "study/fidelity/fidelity_machines.hpp"
 #include "study/scene_steps.hpp"
+#include "study/validate/validate_configs.hpp"
 #include "study/version.hpp"
 
 namespace rtu::study {
@@ -17,7 +19,8 @@ constexpr auto pairing = "edge_bbsa";
 
 class FidelityStudy {
   public:
-    explicit FidelityStudy(const FidelityOptions& options) : options_(options) {
+    explicit FidelityStudy(const FidelityOptions& options) : options_(options), levels_(options.levels) {
+        has_rtl_ = std::erase(levels_, FidelityLevel::Rtl) > 0;
         report_.version = version();
         report_.resolution = options.resolution;
         report_.seed = options.seed;
@@ -54,24 +57,46 @@ class FidelityStudy {
                 rank(source.name(), machine, built.image, *population);
             }
         }
+        if (has_rtl_) compare_rtl(source, loaded);
+    }
+
+    // The RTL is a machine of its own, and slow: a small picture, through it and through the cycle model.
+    void compare_rtl(const SceneSource& source, const LoadedScene& loaded) {
+        const NamedMachine machine{"rtl", {validate_configs().front().config, {}}};
+        const BuiltScene built = build_scene(loaded.mesh, model::parse_pairing_method(pairing),
+                                             model::EdgeIdentity::Position, machine.machine.config.bvh);
+        const ChosenCamera chosen = choose_camera(loaded.mesh, built.image, source, options_.camera_file);
+        const model::WorkloadSetting setting(loaded.mesh, built.image, chosen.camera, options_.rtl_resolution,
+                                             options_.seed);
+        for (const model::WorkloadKind kind : options_.workloads) {
+            const auto population = picture_population(kind, setting);
+            const FidelityRow cycle =
+                row_of(FidelityLevel::Cycle, source.name(), machine, built.image, *population);
+            add(row_of(FidelityLevel::Rtl, source.name(), machine, built.image, *population), cycle);
+            report_.rows.back().is_inside = std::nullopt;
+        }
     }
 
     void compare_levels(const std::string& scene, const NamedMachine& machine,
                         const model::MemoryImage& image, const RayPopulation& population) {
-        const auto row_of = [&](FidelityLevel level) {
-            tell(fmt::format("{}, {}, {}: {}", scene, machine.name, population.name(), to_string(level)));
-            FidelityRow row =
-                fidelity_row(run_level(level, machine.machine.config, image, population, settings()),
-                             machine.machine.config.clock_mhz);
-            row.scene = scene;
-            row.machine = machine.name;
-            row.workload = population.name();
-            row.level = to_string(level);
-            return row;
-        };
-        const FidelityRow cycle = row_of(FidelityLevel::Cycle);
+        const FidelityRow cycle = row_of(FidelityLevel::Cycle, scene, machine, image, population);
         add(cycle, cycle);
-        for (const FidelityLevel level : options_.levels) add(row_of(level), cycle);
+        for (const FidelityLevel level : levels_) {
+            add(row_of(level, scene, machine, image, population), cycle);
+        }
+    }
+
+    FidelityRow row_of(FidelityLevel level, const std::string& scene, const NamedMachine& machine,
+                       const model::MemoryImage& image, const RayPopulation& population) const {
+        tell(fmt::format("{}, {}, {}: {}", scene, machine.name, population.name(), to_string(level)));
+        FidelityRow row =
+            fidelity_row(run_level(level, machine.machine.config, image, population, settings()),
+                         machine.machine.config.clock_mhz);
+        row.scene = scene;
+        row.machine = machine.name;
+        row.workload = population.name();
+        row.level = to_string(level);
+        return row;
     }
 
     void add(FidelityRow row, const FidelityRow& cycle) {
@@ -102,7 +127,7 @@ class FidelityStudy {
         const std::vector<double> truth = mrps_of(FidelityLevel::Cycle, cycle_seconds);
         const auto count = std::uint32_t(machines.size());
         report_.rankings.push_back({scene, population.name(), "cycle", count, 1.0, cycle_seconds});
-        for (const FidelityLevel level : options_.levels) {
+        for (const FidelityLevel level : levels_) {
             double seconds = 0;
             const double tau = kendall_tau(truth, mrps_of(level, seconds));
             report_.rankings.push_back(
@@ -113,6 +138,8 @@ class FidelityStudy {
     [[nodiscard]] SampledOptions settings() const { return {options_.tolerance, options_.seed}; }
 
     const FidelityOptions& options_;
+    std::vector<FidelityLevel> levels_;  // without rtl
+    bool has_rtl_ = false;
     FidelityReport report_;
 };
 

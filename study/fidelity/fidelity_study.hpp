@@ -29,6 +29,8 @@ struct FidelityOptions {
     std::uint64_t seed = 1;
     double tolerance = 0.02;
     bool ranks_configurations = true;  ///< of the first scene, on the first machine
+    /// For the level rtl: a picture of its own, on the machine of the RTL, beside all machines.
+    model::Resolution rtl_resolution{48, 48};
     std::function<void(std::string_view phase)> progress;
 };
 
@@ -38,7 +40,7 @@ struct FidelityRow {
     std::string scene, machine, workload;
     std::string level;  ///< that was asked for; `account` tells what auto chose
     double mrps = 0, mrps_low = 0, mrps_high = 0;
-    std::optional<double> error_percent;  ///< of mrps, against every ray through the cycle model
+    std::optional<double> error_percent;  ///< of mrps, against every ray through the cycle model; see docs
     std::uint64_t simulated_rays = 0, traced_rays = 0, total_rays = 0;
     double host_rays_per_second = 0;
     std::optional<double> speedup;  ///< over the cycle level

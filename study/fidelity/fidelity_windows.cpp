@@ -5,34 +5,48 @@
 #include <optional>
 
 #include "model/random.hpp"
+#include "study/fidelity/analytic_model.hpp"
 
 namespace rtu::study {
 namespace {
 
 // Tells these random numbers from those of workloads and of other studies.
-constexpr std::uint32_t lattice_purpose = 24, window_purpose = 25;
+constexpr std::uint32_t lattice_purpose = 24, window_purpose = 25, block_purpose = 28;
 
 // A stretch of the population that is simulated: settling rays, then the window's.
 struct Stretch {
-    std::vector<model::Ray> warm;            // before it, to be traced without a clock
-    std::uint32_t begin = 0;                 // of the window
-    std::uint64_t settling = 0, window = 0;  // rays
+    std::vector<model::Ray> warm;  // before it, to be traced without a clock
+    std::uint32_t begin = 0;       // of the window
+    std::uint64_t settling = 0;    // rays
+    PopulationPart window;
 };
+
+// Where the windows of the middle begin: one in each share of it that has none yet.
+std::vector<std::uint32_t> window_begins(std::uint32_t size, const WindowPlan& plan) {
+    const std::uint32_t length = plan.window_length;
+    const double share = double(size - 2 * std::uint64_t(length)) / plan.stratum_count;
+    std::vector<bool> is_taken(plan.stratum_count);
+    for (const std::uint32_t begin : plan.taken) {
+        is_taken[std::min(plan.stratum_count - 1, std::uint32_t((begin - length) / share))] = true;
+    }
+    std::vector<std::uint32_t> begins;
+    for (std::uint32_t k = 0; k < plan.stratum_count; ++k) {
+        if (is_taken[k]) continue;
+        // At random: equal distances would meet the same columns of a picture again and again.
+        model::RandomStream random(plan.seed, window_purpose, k);
+        begins.push_back(length + std::uint32_t(share * k + double(random.next()) * (share - length)));
+    }
+    return begins;
+}
 
 // Hands the rays of one stretch after another to the machine, and makes them no earlier than they are wanted.
 class StretchSupply final : public sim::RaySupply {
   public:
     StretchSupply(const RayPopulation& population, const WindowPlan& plan)
         : population_(population), plan_(plan) {
-        const std::uint32_t size = population.size(), length = plan.window_length;
-        const double share = double(size - 2 * std::uint64_t(length)) / plan.window_count;
-        begins_.push_back(0);
-        for (std::uint32_t k = 0; k < plan.window_count; ++k) {
-            // At random: equal distances would meet the same columns of a picture again and again.
-            model::RandomStream random(plan.seed, window_purpose, k);
-            begins_.push_back(length + std::uint32_t(share * k + double(random.next()) * (share - length)));
-        }
-        begins_.push_back(size - length);
+        begins_ = window_begins(population.size(), plan);
+        begins_.insert(begins_.begin(), 0);
+        begins_.push_back(population.size() - plan.window_length);
     }
 
     [[nodiscard]] std::size_t stretch_count() const { return begins_.size(); }
@@ -61,8 +75,9 @@ class StretchSupply final : public sim::RaySupply {
         Stretch& stretch = stretches_.emplace_back();
         stretch.begin = begin;
         stretch.settling = std::min<std::uint64_t>(before, plan_.settling_rays);
-        stretch.window = part.rays.size() - before;
         const auto settling = part.rays.begin() + std::ptrdiff_t(before - stretch.settling);
+        stretch.window = {{part.rays.begin() + std::ptrdiff_t(before), part.rays.end()},
+                          {part.positions.begin() + std::ptrdiff_t(before), part.positions.end()}};
         stretch.warm.assign(part.rays.begin(), settling);
         rays_.insert(rays_.end(), settling, part.rays.end());
     }
@@ -74,14 +89,17 @@ class StretchSupply final : public sim::RaySupply {
     std::deque<model::Ray> rays_;
 };
 
-// One position of each `stride` of the middle, at random within it.
-std::vector<std::uint32_t> lattice_positions(std::uint32_t size, const WindowPlan& plan) {
+// A stretch of `length` positions in each `stride` of the middle, at random within it: where it begins.
+std::vector<std::uint32_t> spread(std::uint32_t size, const WindowPlan& plan, std::uint32_t stride,
+                                  std::uint32_t length, std::uint32_t purpose) {
     std::vector<std::uint32_t> positions;
     const std::uint64_t end = size - plan.window_length;
-    for (std::uint64_t begin = plan.window_length; begin < end; begin += plan.lattice_stride) {
-        const std::uint64_t length = std::min<std::uint64_t>(plan.lattice_stride, end - begin);
-        model::RandomStream random(plan.seed, lattice_purpose, std::uint32_t(begin));
-        positions.push_back(std::uint32_t(begin + std::uint64_t(double(random.next()) * double(length))));
+    for (std::uint64_t begin = plan.window_length; begin < end; begin += stride) {
+        const std::uint64_t share = std::min<std::uint64_t>(stride, end - begin);
+        if (share < length) break;
+        model::RandomStream random(plan.seed, purpose, std::uint32_t(begin));
+        const double place = double(random.next()) * double(share - length + 1);
+        positions.push_back(std::uint32_t(begin + std::uint64_t(place)));
     }
     return positions;
 }
@@ -99,71 +117,109 @@ class Measuring {
   public:
     Measuring(const sim::Config& config, const model::MemoryImage& image, const RayPopulation& population,
               const WindowPlan& plan)
-        : image_(image),
+        : config_(config),
+          image_(image),
           population_(population),
-          rtu_count_(config.rtu.count),
           length_(plan.window_length),
+          block_length_(plan.block_length),
           supply_(population, plan),
           session_(config, image, supply_, population.kind()),
-          lattice_(lattice_positions(population.size(), plan)) {}
+          lattice_(spread(population.size(), plan, plan.lattice_stride, 1, lattice_purpose)),
+          blocks_(spread(population.size(), plan, plan.block_stride, plan.block_length, block_purpose)),
+          has_image_in_l2_(plan.has_image_in_l2) {
+        if (!has_image_in_l2_) return;
+        for (std::uint64_t address = 0; address < image.size_bytes(); address += model::image_block_bytes) {
+            session_.warm(0, address, model::image_block_bytes);
+        }
+    }
 
     WindowMeasurement run() {
         result_.window_length = length_;
+        result_.block_length = block_length_;
         result_.middle_length = population_.size() - 2 * std::uint64_t(length_);
         const std::size_t last = supply_.stretch_count() - 1;
         for (std::size_t i = 0; i <= last; ++i) {
-            const WindowSample sample = measure(supply_.stretch(i), i == last);
-            (i == 0 ? result_.first : i == last ? result_.last : result_.windows.emplace_back()) = sample;
+            const Stretch& stretch = supply_.stretch(i);
+            const WindowSample sample = measure(stretch, i == last);
+            if (i == 0 || i == last) {
+                (i == 0 ? result_.first : result_.last) = sample;
+                continue;
+            }
+            result_.windows.push_back(sample);
+            result_.windows.back().begin = stretch.begin;
+            result_.windows.back().traced = trace_blocks(stretch.window, stretch.begin, false);
         }
-        trace_lattice(population_.size());
+        trace_between(population_.size());
         return std::move(result_);
     }
 
   private:
     WindowSample measure(const Stretch& stretch, bool is_last) {
-        trace_lattice(stretch.begin);
-        for (const model::Ray& ray : stretch.warm) static_cast<void>(trace(ray));
+        trace_between(stretch.begin);
+        for (const model::Ray& ray : stretch.warm) static_cast<void>(trace(ray, true));
         handed_ += stretch.settling;
         session_.advance_to(handed_);
         const sim::MachineMark begin = session_.mark();
-        handed_ += stretch.window;
+        handed_ += stretch.window.rays.size();
         if (is_last) {
             session_.finish();
         } else {
             session_.advance_to(handed_);
         }
-        result_.simulated_rays += stretch.settling + stretch.window;
+        result_.simulated_rays += stretch.settling + stretch.window.rays.size();
         return between(begin, session_.mark());
     }
 
-    void trace_lattice(std::uint32_t end) {
+    // What of the lattice and the blocks lies before `end`.
+    void trace_between(std::uint32_t end) {
         const auto stop = std::lower_bound(lattice_.begin() + std::ptrdiff_t(traced_), lattice_.end(), end);
         const std::span<const std::uint32_t> positions(lattice_.begin() + std::ptrdiff_t(traced_), stop);
         const PopulationPart part = population_.part(positions);
         std::size_t next = 0;
         for (const std::uint32_t position : positions) {
             const bool has_ray = next < part.positions.size() && part.positions[next] == position;
-            result_.lattice.push_back(has_ray ? trace(part.rays[next++]) : RayWork{});
+            result_.lattice.push_back(has_ray ? trace(part.rays[next++], !has_image_in_l2_) : RayWork{});
         }
         traced_ += positions.size();
+        for (; result_.blocks.size() < blocks_.size() && blocks_[result_.blocks.size()] < end;) {
+            const std::uint32_t begin = blocks_[result_.blocks.size()];
+            result_.blocks.push_back(
+                trace_blocks(population_.part(begin, begin + block_length_), begin, !has_image_in_l2_));
+        }
     }
 
-    // Without a clock, and its memory accesses into the caches.
-    RayWork trace(const model::Ray& ray) {
-        const std::uint32_t rtu = std::uint32_t(result_.traced_rays++ % rtu_count_);
+    // Rays of whole blocks, the first of which begins at `begin`.
+    TracedWork trace_blocks(const PopulationPart& part, std::uint32_t begin, bool warms) {
+        TracedWork all;
+        for (std::size_t i = 0; i < part.rays.size();) {
+            const std::uint32_t end =
+                begin + ((part.positions[i] - begin) / block_length_ + 1) * block_length_;
+            RayWork block;
+            for (; i < part.rays.size() && part.positions[i] < end; ++i) block += trace(part.rays[i], warms);
+            all.work += block;
+            all.least_cycles += least_cycles(config_, block);
+        }
+        return all;
+    }
+
+    // Without a clock; its memory accesses go into the caches when it `warms` them.
+    RayWork trace(const model::Ray& ray, bool warms) {
+        const std::uint32_t rtu = std::uint32_t(result_.traced_rays++ % config_.rtu.count);
         if (!walk_.start(image_, ray, population_.kind())) return walk_.work();
-        do session_.warm(rtu, walk_.address(), walk_.size_bytes(image_));
+        do
+            if (warms) session_.warm(rtu, walk_.address(), walk_.size_bytes(image_));
         while (walk_.step(image_));
         return walk_.work();
     }
 
+    const sim::Config& config_;
     const model::MemoryImage& image_;
     const RayPopulation& population_;
-    std::uint32_t rtu_count_;
-    std::uint32_t length_;
+    std::uint32_t length_, block_length_;
     StretchSupply supply_;
     sim::MachineSession session_;
-    std::vector<std::uint32_t> lattice_;
+    std::vector<std::uint32_t> lattice_, blocks_;
+    bool has_image_in_l2_;
     std::size_t traced_ = 0;  // of the lattice
     std::uint64_t handed_ = 0;
     FunctionalWalk walk_;
@@ -173,7 +229,8 @@ class Measuring {
 }  // namespace
 
 std::uint64_t simulated_length(const WindowPlan& plan) {
-    return std::uint64_t(plan.window_count + 2) * (plan.window_length + plan.settling_rays);
+    const std::uint64_t windows = plan.stratum_count - plan.taken.size() + 2;
+    return windows * (plan.window_length + plan.settling_rays);
 }
 
 WindowMeasurement measure_windows(const sim::Config& config, const model::MemoryImage& image,

@@ -17,18 +17,32 @@ namespace rtu::study {
 
 /// Where to measure. All lengths are positions of the population, unless they say rays.
 struct WindowPlan {
-    std::uint32_t window_count = 16;
+    std::uint32_t stratum_count = 16;    ///< equal shares of the workload, with a window each
+    std::vector<std::uint32_t> taken{};  ///< where windows lie already: their strata get no other
     std::uint32_t window_length = 512;
     std::uint32_t settling_rays = 256;  ///< simulated before each window, not measured
     std::uint32_t warm_length = 2048;   ///< before each window, all traced to warm the caches
     std::uint32_t lattice_stride = 64;  ///< of each so many positions one is traced
-    std::uint64_t seed = 1;             ///< of the places of windows and lattice
+    /// As many rays as are in the machine together, so that its busiest unit sets their pace; a window has
+    /// whole blocks.
+    std::uint32_t block_length = 128;
+    std::uint32_t block_stride = 4096;  ///< of each so many positions a block is traced
+    std::uint64_t seed = 1;             ///< of the places of windows, lattice and blocks
+    bool has_image_in_l2 = false;       ///< from the start, so that DRAM is never asked
+};
+
+/// Rays traced without a clock.
+struct TracedWork {
+    RayWork work;
+    double least_cycles = 0;  ///< of the blocks that they make, one after another: see least_cycles()
 };
 
 /// Cycles and work of a stretch of a run.
 struct WindowSample {
     double cycles = 0;
-    RayWork work;
+    RayWork work;         ///< that the machine did meanwhile: rays, nodes, boxes, leaves, pairs, triangles
+    TracedWork traced{};  ///< of the rays that it was handed meanwhile; windows of the middle only
+    std::uint32_t begin = 0;  ///< position
 };
 
 /// What was measured. The population is the first window (from cold caches), the last one (until its last ray
@@ -37,7 +51,9 @@ struct WindowMeasurement {
     WindowSample first, last;
     std::vector<WindowSample> windows;  ///< of the middle
     std::vector<RayWork> lattice;       ///< of one position each, spread over the middle
+    std::vector<TracedWork> blocks;     ///< of `block_length` each, likewise
     std::uint32_t window_length = 0;
+    std::uint32_t block_length = 0;
     std::uint64_t middle_length = 0;
     std::uint64_t simulated_rays = 0;
     std::uint64_t traced_rays = 0;  ///< without a clock

@@ -44,8 +44,7 @@ ReferenceMachine rtl_reference(const std::optional<WaveWindow>& waves) {
 }
 #else
 ReferenceMachine rtl_reference(const std::optional<WaveWindow>& /*waves*/) {
-    throw Error(
-        "validate: this rtusim was built without the RTL reference; install Verilator and build again");
+    throw Error("this rtusim was built without the RTL reference; install Verilator and build again");
 }
 #endif
 

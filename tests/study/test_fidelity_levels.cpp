@@ -1,9 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "model/builtin_scene.hpp"
+#include "model/error.hpp"
+#include "study/fidelity/analytic_model.hpp"
 #include "study/fidelity/fidelity_levels.hpp"
 #include "study/fidelity/fidelity_study.hpp"
+#include "study/fidelity/fidelity_windows.hpp"
 #include "study/scene_steps.hpp"
+#include "study/validate/rtl_reference.hpp"
+#include "study/validate/validate_configs.hpp"
 #include "tests/sim/machine_fixture.hpp"
 
 namespace rtu::study {
@@ -64,15 +71,16 @@ class BuiltinFidelity : public testing::Test {
                                                     model::EdgeIdentity::Position, sim::Config{}.bvh);
         return scene.image;
     }
-    std::unique_ptr<RayPopulation> population(model::WorkloadKind kind) {
+    std::unique_ptr<RayPopulation> population(model::Resolution picture) {
         camera_ = model::builtin_camera();
-        return picture_population(kind, {loaded().mesh, image(), camera_, resolution, 1});
+        return picture_population(model::WorkloadKind::Primary,
+                                  {loaded().mesh, image(), camera_, picture, 1});
     }
     model::Camera camera_;
 };
 
 TEST_F(BuiltinFidelity, LevelsHoldWhatEveryRayFinds) {
-    const auto rays = population(model::WorkloadKind::Primary);
+    const auto rays = population(resolution);
     const sim::Config config;
     const LevelResult cycle = run_cycle(config, image(), *rays);
     const double truth = cycle.estimate.cycles_per_ray;
@@ -100,10 +108,120 @@ TEST_F(BuiltinFidelity, LevelsHoldWhatEveryRayFinds) {
 }
 
 TEST_F(BuiltinFidelity, AutoTakesWhatTheToleranceNeeds) {
-    const auto rays = population(model::WorkloadKind::Primary);
-    EXPECT_EQ(run_auto({}, image(), *rays, {0.2, 1}).level, "analytic");
-    EXPECT_EQ(run_auto({}, image(), *rays, {0.03, 1}).level, "sampled");
-    EXPECT_EQ(run_auto({}, image(), *rays, {0.006, 1}).level, "cycle");
+    const auto rays = population({288, 288});
+    sim::Config config;
+    config.rtu.ray_slots = 32;
+    EXPECT_EQ(run_auto(config, image(), *rays, {0.35, 1}).level, "analytic");
+    EXPECT_EQ(run_auto(config, image(), *rays, {0.05, 1}).level, "sampled");
+    EXPECT_EQ(run_auto(config, image(), *rays, {0.006, 1}).level, "cycle");
+}
+
+// Many rays into a few kibibytes.
+TEST(FidelityAuto, LeavesOutADramThatIsHardlyAsked) {
+    const Ball ball;
+    const model::Camera camera = model::automatic_camera(ball.mesh, ball.image);
+    const model::WorkloadSetting setting(ball.mesh, ball.image, camera, {360, 360}, 1);
+    const auto rays = picture_population(model::WorkloadKind::Primary, setting);
+    sim::Config config;
+    config.rtu.ray_slots = 32;
+    config.rtu.pair.hit_units = 4;
+    config.dram.latency_cycles = 0;
+    const LevelResult result = run_auto(config, ball.image, *rays, {0.055, 1});
+    EXPECT_EQ(result.level, "sampled");
+    EXPECT_NE(result.account.find("no DRAM"), std::string::npos) << result.account;
+    const double truth = run_cycle(config, ball.image, *rays).estimate.cycles_per_ray;
+    EXPECT_LE(result.estimate.low, truth);
+    EXPECT_GE(result.estimate.high, truth);
+    config.l1.size_bytes = config.l2.size_bytes = 8192;
+    EXPECT_EQ(run_auto(config, ball.image, *rays, {0.055, 1}).account.find("no DRAM"), std::string::npos);
+}
+
+TEST(FidelityAuto, FewRaysAreNotSampled) {
+    const Ball ball;
+    const model::Camera camera = model::automatic_camera(ball.mesh, ball.image);
+    const model::WorkloadSetting setting(ball.mesh, ball.image, camera, {100, 100}, 1);
+    const auto rays = picture_population(model::WorkloadKind::Primary, setting);
+    const LevelResult result = run_auto({}, ball.image, *rays, {0.02, 1});
+    EXPECT_EQ(result.level, "cycle");
+    EXPECT_EQ(result.traced_rays, 0U) << "nothing was tried before";
+}
+
+TEST(FidelityRtl, IsTheCycleModelOnTheMachineOfTheRtl) {
+    const Ball ball;
+    const model::Camera camera = model::automatic_camera(ball.mesh, ball.image);
+    const model::WorkloadSetting setting(ball.mesh, ball.image, camera, {24, 24}, 1);
+    const auto rays = picture_population(model::WorkloadKind::Primary, setting);
+    const sim::Config config = validate_configs().front().config;
+    try {
+        static_cast<void>(rtl_reference());
+    } catch (const Error& error) {
+        GTEST_SKIP() << error.what();
+    }
+    const LevelResult rtl = run_rtl(config, ball.image, *rays);
+    EXPECT_EQ(rtl.simulated_rays, 24U * 24);
+    const double cycles = run_cycle(config, ball.image, *rays).estimate.cycles_per_ray;
+    EXPECT_NEAR(rtl.estimate.cycles_per_ray, cycles, 0.02 * cycles);
+    EXPECT_THROW(static_cast<void>(run_rtl({}, ball.image, *rays)), Error) << "another machine";
+    const model::WorkloadSetting large(ball.mesh, ball.image, camera, {400, 400}, 1);
+    const auto many = picture_population(model::WorkloadKind::Primary, large);
+    EXPECT_THROW(static_cast<void>(run_rtl(config, ball.image, *many)), Error) << "hours";
+}
+
+class Windows : public testing::Test {
+  protected:
+    Ball ball_;
+    model::Camera camera_ = model::automatic_camera(ball_.mesh, ball_.image);
+    std::unique_ptr<RayPopulation> rays_ =
+        picture_population(model::WorkloadKind::Primary, {ball_.mesh, ball_.image, camera_, {96, 96}, 1});
+    WindowPlan plan_{.stratum_count = 8,
+                     .window_length = 128,
+                     .settling_rays = 64,
+                     .warm_length = 160,
+                     .lattice_stride = 16,
+                     .block_length = 32,
+                     .block_stride = 512};
+};
+
+TEST_F(Windows, NewOnesTakeTheSharesThatHaveNone) {
+    const WindowMeasurement first = measure_windows({}, ball_.image, *rays_, plan_);
+    ASSERT_EQ(first.windows.size(), 8U);
+    for (const WindowSample& window : first.windows) plan_.taken.push_back(window.begin);
+    plan_.stratum_count = 32;
+    EXPECT_EQ(simulated_length(plan_), 26U * (128 + 64));
+    const WindowMeasurement second = measure_windows({}, ball_.image, *rays_, plan_);
+    ASSERT_EQ(second.windows.size(), 24U);
+    std::set<std::uint32_t> shares;
+    for (const WindowMeasurement* pass : {&first, &second})
+        for (const WindowSample& window : pass->windows)
+            shares.insert((window.begin - 128) * 32 / (96 * 96 - 256));
+    EXPECT_EQ(shares.size(), 32U);
+}
+
+TEST_F(Windows, TraceTheRaysThatTheyHandOver) {
+    const WindowMeasurement run = measure_windows({}, ball_.image, *rays_, plan_);
+    for (const WindowSample& window : run.windows) {
+        EXPECT_EQ(window.traced.work.rays, window.work.rays);
+        EXPECT_NEAR(window.traced.work.node_visits, window.work.node_visits, 0.5 * window.work.node_visits);
+        EXPECT_GE(window.traced.least_cycles, least_cycles({}, window.traced.work) - 1e-9);
+    }
+    EXPECT_EQ(run.blocks.size(), 18U) << "17.5 strides";
+    for (const TracedWork& block : run.blocks) EXPECT_EQ(block.work.rays, 32);
+}
+
+TEST_F(Windows, WithTheImageInTheL2DramIsNotAsked) {
+    const auto cycles = [&](const sim::Config& config) {
+        double sum = 0;
+        for (const WindowSample& w : measure_windows(config, ball_.image, *rays_, plan_).windows)
+            sum += w.cycles;
+        return sum;
+    };
+    sim::Config slow;
+    slow.dram.latency_cycles = 500;
+    plan_.lattice_stride = plan_.block_stride = 8192;
+    plan_.warm_length = plan_.settling_rays;
+    EXPECT_GT(cycles(slow), cycles({}));
+    plan_.has_image_in_l2 = true;
+    EXPECT_EQ(cycles(slow), cycles({}));
 }
 
 TEST(StoredPopulation, FewRaysAreAllSimulated) {

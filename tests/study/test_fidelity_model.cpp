@@ -95,9 +95,11 @@ class SyntheticRun {
         WindowMeasurement run;
         run.window_length = length;
         run.middle_length = windows * length;
+        run.block_length = length / blocks;
         run.first = run.last = {0, {}};
         for (int k = 0; k < 20; ++k)
             run.windows.push_back(window(std::uint32_t((k + uniform()) * windows / 20)));
+        for (int i = 0; i < 200; ++i) run.blocks.push_back(block(std::uint32_t(i)));
         for (int i = 0; i < 4000; ++i) run.lattice.push_back(position((i + uniform()) / 4000));
         return run;
     }
@@ -109,7 +111,7 @@ class SyntheticRun {
     }
 
   private:
-    static constexpr std::uint32_t length = 500, windows = 1000;
+    static constexpr std::uint32_t length = 500, windows = 1000, blocks = 5;
 
     static RayWork mean_work(double place) {
         const double nodes = 10 + 8 * std::sin(9 * place);
@@ -126,7 +128,12 @@ class SyntheticRun {
     WindowSample window(std::uint32_t index) {
         const RayWork work = double(length) * mean_work((index + 0.5) / windows);
         const double factor = 1 + noise_ * std::normal_distribution<double>()(random_);
-        return {cycles_of(work) * factor, work};
+        return {cycles_of(work) * factor, work, {work, 0}, index * length};
+    }
+    // Their least cycles say nothing that their work does not.
+    TracedWork block(std::uint32_t index) {
+        const RayWork work = double(length) / blocks * mean_work((index + 0.5) / 200);
+        return {work, 4 * work.node_visits};
     }
 
     double noise_;
@@ -161,9 +168,68 @@ TEST(Estimate, NoRaysGiveNothing) {
     empty.middle_length = 100;
     empty.windows.resize(3);
     empty.lattice.resize(5);
+    empty.blocks.resize(2);
+    empty.block_length = 5;
     const CycleEstimate estimate = estimate_cycles({}, std::vector{empty});
     EXPECT_EQ(estimate.rays, 0);
     EXPECT_EQ(estimate.cycles_per_ray, 0);
+}
+
+// Blocks of rays that miss, which the host feeds one a cycle, and of rays that keep the hit units: what a
+// window costs is linear in the cycles of the busiest unit of each block, and in nothing else.
+TEST(Estimate, TheBusiestUnitOfEachBlockTellsWhatSumsDoNot) {
+    const sim::Config config;
+    const RayWork misses{.rays = 10, .node_visits = 10, .box_tests = 10};
+    const RayWork hits{.rays = 10, .node_visits = 10, .box_tests = 40, .survivors = 10, .better_hits = 5};
+    std::mt19937 random(4);
+    WindowMeasurement run;
+    run.window_length = 40;
+    run.block_length = 10;
+    run.middle_length = 400'000;
+    double sum = 0;
+    for (std::uint32_t k = 0; k < 16; ++k) {
+        WindowSample& window = run.windows.emplace_back();
+        window.begin = k * 25'000;
+        for (int b = 0; b < 4; ++b) {
+            const RayWork block = (k + b) % 2 == 0 ? misses : double(1 + random() % 3) * hits;
+            window.work += block;
+            window.traced.work += block;
+            window.traced.least_cycles += least_cycles(config, block);
+        }
+        window.cycles = 1.1 * window.traced.least_cycles;
+        sum += window.cycles;
+    }
+    for (int i = 0; i < 4000; ++i) {
+        const RayWork block = i % 2 == 0 ? misses : double(1 + random() % 3) * hits;
+        run.blocks.push_back({block, least_cycles(config, block)});
+        run.lattice.push_back(0.1 * block);
+    }
+    double truth = 0;
+    for (const TracedWork& block : run.blocks) truth += 1.1 * block.least_cycles / 40'000;
+    const CycleEstimate estimate = estimate_cycles(config, std::vector{run});
+    const double per_position = estimate.cycles_per_ray * estimate.rays / 400'000;
+    EXPECT_NEAR(per_position, truth, 0.002 * truth);
+    EXPECT_GT(std::abs(sum / 16 / 40 - truth), 0.01 * truth) << "the windows' mean alone would not do";
+}
+
+// What varies slowly along a run is no error of windows that are spread over it.
+TEST(Estimate, NeighboursTellTheIntervalWhereTheRunDrifts) {
+    const auto width = [](bool is_in_order) {
+        WindowMeasurement run;
+        run.window_length = 10;
+        run.block_length = 10;
+        run.middle_length = 10'000;
+        for (std::uint32_t k = 0; k < 64; ++k) {
+            const std::uint32_t place = is_in_order ? k : k * 27 % 64;
+            WindowSample& window = run.windows.emplace_back();
+            window.work.rays = 10;
+            window.cycles = 100 + k;
+            window.begin = 100 * place;
+        }
+        run.lattice.resize(100, {.rays = 1});
+        return estimate_cycles({}, std::vector{run}).relative_half_width();
+    };
+    EXPECT_LT(width(true), 0.2 * width(false));
 }
 
 WorkloadProfile uniform_profile(double nodes, double pairs) {
@@ -215,6 +281,19 @@ TEST(AnalyticModel, AFlatMemoryIsOneBus) {
     const AnalyticResult result = analyse(config, profile);
     EXPECT_NEAR(result.cycles_per_ray, 80, 5);
     EXPECT_EQ(result.bottleneck, "memory bus");
+}
+
+TEST(AnalyticModel, NoRunIsFasterThanItsBusiestUnit) {
+    const RayWork work = uniform_profile(20, 2).blocks.front().per_ray;
+    sim::Config config;
+    EXPECT_DOUBLE_EQ(least_cycles(config, work), 20) << "box lanes";
+    EXPECT_DOUBLE_EQ(least_cycles(config, 3 * work), 60);
+    config.rtu.box.boxes_per_cycle = 80;
+    EXPECT_DOUBLE_EQ(least_cycles(config, work), (0.5 * 92 + 1.5 * 56) / 8) << "hit units";
+    config.rtu.pair.hit_units = 0;
+    EXPECT_DOUBLE_EQ(least_cycles(config, work), 11) << "scheduler, two visits a cycle";
+    config.rtu.count = 2;
+    EXPECT_DOUBLE_EQ(least_cycles(config, work), 5.5);
 }
 
 TEST(AnalyticModel, OneSlotTakesItsLatency) {
