@@ -17,7 +17,7 @@ using test::image_of;
 using test::Random;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr BvhOptions spatial{4, 1, SplitKind::Spatial, 200};
+constexpr BvhOptions spatial{.width = 4, .splits = SplitKind::Spatial, .split_budget_percent = 200};
 
 NodeRef leaf_of(std::uint32_t pair) { return NodeRef::leaf(std::uint64_t(pair) * image_block_bytes, 1); }
 
@@ -99,7 +99,7 @@ Ray random_ray(Random& random, const TriangleMesh& mesh, int i) {
 std::vector<Hit> brute_force(const MemoryImage& image, const Ray& ray) {
     std::vector<Hit> hits;
     const RaySetup setup = make_ray_setup(ray, image.bounds);
-    const std::uint64_t first = image.node_count * MemoryImage::node_bytes(image.width);
+    const std::uint64_t first = image.node_count * image.node_bytes();
     for (std::uint64_t i = 0; i < image.pair_count; ++i) {
         const PairHits found =
             test_pair(image.leaf_pair(NodeRef::leaf(first + i * image_block_bytes, 1), 0), setup);
@@ -122,7 +122,7 @@ TraversalCounts reference_counts(const MemoryImage& image, const Ray& ray, RayKi
         const NodeRef ref = walk.current.ref;
         if (!ref.is_leaf()) {
             ++counts.node_visits;
-            counts.box_tests += visit_node(walk, image);
+            counts.box_tests += visit_node(walk, image).box_tests;
             continue;
         }
         const MailboxAnswer answer = list.look_up(std::uint32_t(ref.address() / image_block_bytes));
@@ -141,7 +141,8 @@ TEST(MailboxTraversal, ChangesNoHitWhateverTheSplits) {
     for (const std::uint32_t width : {2U, 4U, 8U}) {
         const TriangleMesh mesh = test::needles(400, width, {0.5F, 0.5F, 0.5F});
         const MemoryImage plain = image_of(mesh, {width, 1});
-        const MemoryImage split = image_of(mesh, {width, 1, SplitKind::Spatial, 200});
+        const MemoryImage split =
+            image_of(mesh, {.width = width, .splits = SplitKind::Spatial, .split_budget_percent = 200});
         ASSERT_GT(split.reference_count, split.pair_count * 11 / 10);
         Random random(width);
         TraversalStack stack;

@@ -87,7 +87,7 @@ std::map<std::uint64_t, std::vector<Aabb>> leaf_boxes(const MemoryImage& image) 
 }
 
 BvhOptions spatial(std::uint32_t width, std::uint32_t percent = 100) {
-    return {width, 1, SplitKind::Spatial, percent};
+    return {.width = width, .splits = SplitKind::Spatial, .split_budget_percent = percent};
 }
 
 class SpatialSplits : public testing::TestWithParam<std::uint32_t> {};

@@ -12,7 +12,7 @@ namespace {
 
 using model::RayKind;
 
-constexpr model::BvhOptions spatial{4, 1, SplitKind::Spatial, 200};
+constexpr model::BvhOptions spatial{.width = 4, .splits = SplitKind::Spatial, .split_budget_percent = 200};
 
 model::TriangleMesh split_mesh() { return test::needles(600, 3, {0.5F, 0.5F, 0.5F}); }
 
