@@ -179,7 +179,6 @@ std::vector<MailboxCase> mailbox_cases() {
         {"four_entries", ClosestHit, {.slots = 64, .mailbox_entries = 4}},
         {"five_entries_any_hit", AnyHit, {.slots = 64, .mailbox_entries = 5}},
         {"sixteen_entries", ClosestHit, {.slots = 128, .mailbox_entries = 16}},
-        {"one_slot", ClosestHit, {.slots = 1, .mailbox_entries = 16}},
         {"stack_of_one", ClosestHit, {.slots = 64, .stack_entries = 1, .mailbox_entries = 16}},
         {"stack_of_two_any_hit", AnyHit, {.slots = 16, .stack_entries = 2, .mailbox_entries = 8}},
         {"stack_of_four", ClosestHit, {.slots = 128, .stack_entries = 4, .mailbox_entries = 16}},
