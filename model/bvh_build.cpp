@@ -104,6 +104,9 @@ MemoryImage build_bvh(const TriangleMesh& mesh, const Pairing& pairing, BvhOptio
               "{} pairs a leaf are not 1 to {}", options.max_leaf_pairs, max_leaf_pairs);
     RTU_CHECK(options.splits == SplitKind::Object || options.max_leaf_pairs == 1,
               "{} pairs a leaf are not 1, as spatial splits need", options.max_leaf_pairs);
+    // A quantised node's leaves lie side by side, so none can be another node's too.
+    RTU_CHECK(options.splits == SplitKind::Object || options.node_format == NodeFormat::Full,
+              "nodes are quantised, and leaves of spatial splits are shared");
     if (pairing.pairs.empty()) throw Error("{}: expected triangles to build a BVH over, got none", mesh.name);
 
     const EmbreeTree tree(mesh, pairing, options);

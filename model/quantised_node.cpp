@@ -63,6 +63,7 @@ class ImageQuantiser {
         image_.node_count = full.node_count;
         image_.leaf_count = full.leaf_count;
         image_.pair_count = full.pair_count;
+        image_.reference_count = full.reference_count;
         image_.blocks.resize(next_leaf_ / image_block_bytes + full.pair_count);
         image_.exact_nodes.resize(full.node_count * sizeof(Node<Width>) / image_block_bytes);
     }

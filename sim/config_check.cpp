@@ -66,6 +66,9 @@ void validate(const EffectiveConfig& effective) {
     require(effective, config.bvh.splits == SplitKind::Object || config.bvh.max_leaf_pairs == 1,
             "one pair a leaf where leaves share pairs", {"bvh.splits", "bvh.max_leaf_pairs"});
     require(effective,
+            config.bvh.splits == SplitKind::Object || config.bvh.node_format == model::NodeFormat::Full,
+            "full nodes where leaves share pairs", {"bvh.splits", "bvh.node_format"});
+    require(effective,
             config.rtu.mailbox.kind != MailboxKind::Hashed || config.rtu.mailbox.entries == 0 ||
                 std::has_single_bit(config.rtu.mailbox.entries),
             "a power of two places", {"rtu.mailbox.kind", "rtu.mailbox.entries"});
