@@ -52,8 +52,8 @@ struct Config {
 
     struct Bvh {
         std::uint32_t width = 4;
-        std::uint32_t max_leaf_pairs = 1;
         model::NodeFormat node_format = model::NodeFormat::Full;
+        std::uint32_t max_leaf_pairs = 1;
         SplitKind splits = SplitKind::Object;
         std::uint32_t split_budget_percent = 20;
     } bvh;

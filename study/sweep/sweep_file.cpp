@@ -13,6 +13,15 @@
 namespace rtu::study {
 namespace {
 
+// The RTL is one machine, not the many of a sweep.
+FidelityLevel parse_level(std::string_view name) {
+    using enum FidelityLevel;
+    for (const FidelityLevel level : {Counts, Analytic, Sampled, Cycle, Auto}) {
+        if (name == to_string(level)) return level;
+    }
+    throw Error("expected counts, analytic, sampled, cycle or auto, got '{}'", name);
+}
+
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t max_file_bytes = 1U << 20;
@@ -203,7 +212,7 @@ class Parser {
     void read_fidelity() {
         if (const toml::node* node = find("fidelity")) {
             const std::string text = reader_.text(*node, "fidelity, a name");
-            file_.fidelity = at(reader_.place(*node), [&] { return parse_fidelity_level(text); });
+            file_.fidelity = at(reader_.place(*node), [&] { return parse_level(text); });
         }
         const toml::node* node = find("tolerance");
         if (node == nullptr) return;

@@ -187,6 +187,7 @@ const BadFile bad_files[] = {
     {"resolution = [4]\n", "s.toml:2: expected resolution = [width, height]"},
     {"camera = \"none.toml\"\n", "s.toml:2: none.toml: "},
     {"fidelity = \"magic\"\n", "s.toml:2: expected counts, analytic, sampled, cycle or auto, got 'magic'"},
+    {"fidelity = \"rtl\"\n", "s.toml:2: expected counts, analytic, sampled, cycle or auto, got 'rtl'"},
     {"fidelity = \"sampled\"\ntolerance = 0.1\n", "s.toml:3: expected tolerance, a number from 0.6"},
     {"tolerance = 2\n", "s.toml:2: a tolerance is of fidelity sampled and auto only"},
     {"fidelity = \"auto\"\nobjectives = [\"bytes_per_ray\"]\n",
