@@ -285,7 +285,7 @@ TEST_F(SweepCommand, ExamplesAreSweeps) {
 
 // A machine that needs more memory than there may be: its point fails, the others do not.
 TEST_F(SweepCommand, FailedPointsAreListedAndTheOthersDone) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(RTUSIM_IS_SANITIZED)
     GTEST_SKIP() << "the address sanitizer needs all of the address space";
 #endif
     static_cast<void>(folder_.write(

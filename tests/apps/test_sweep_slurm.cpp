@@ -18,7 +18,7 @@ namespace {
 class SweepSlurm : public CommandLine {
   protected:
     void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(RTUSIM_IS_SANITIZED)
         GTEST_SKIP() << "takes too long under the sanitizers";
 #endif
         for (const char* program : {"slurmctld", "slurmd", "sbatch", "squeue"}) {
@@ -41,18 +41,19 @@ class SweepSlurm : public CommandLine {
             static_cast<void>((*daemon)->wait());
         }
         ::unsetenv("SLURM_CONF");
+        std::filesystem::remove_all(spool_);
     }
 
     void write_configuration() const {
         const std::filesystem::path cluster = folder_.path() / "cluster";
         std::filesystem::create_directories(cluster / "state");
-        std::filesystem::create_directories(cluster / "spool");
+        std::filesystem::create_directories(spool_);
         const int port = 20'000 + int(::getpid() % 20'000);
         const std::string host = shell("hostname -s").out;
         std::ofstream(cluster / "slurm.conf") << fmt::format(
             "ClusterName=loopback\nSlurmctldHost={0}(127.0.0.1)\nSlurmUser=root\nSlurmdUser=root\n"
             "AuthType=auth/none\nCredType=cred/none\nSlurmctldPort={2}\nSlurmdPort={3}\n"
-            "StateSaveLocation={1}/state\nSlurmdSpoolDir={1}/spool\nSlurmctldPidFile={1}/ctld.pid\n"
+            "StateSaveLocation={1}/state\nSlurmdSpoolDir={4}\nSlurmctldPidFile={1}/ctld.pid\n"
             "SlurmdPidFile={1}/d.pid\nSlurmctldLogFile={1}/ctld.log\nSlurmdLogFile={1}/d.log\n"
             "ProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\n"
             "JobAcctGatherType=jobacct_gather/none\nAccountingStorageType=accounting_storage/none\n"
@@ -61,7 +62,7 @@ class SweepSlurm : public CommandLine {
             "MpiDefault=none\nReturnToService=2\nSlurmdParameters=config_overrides\n"
             "NodeName=node NodeHostname={0} NodeAddr=127.0.0.1 CPUs=2 RealMemory=1000 State=UNKNOWN\n"
             "PartitionName=all Nodes=node Default=YES MaxTime=INFINITE State=UP\n",
-            host.substr(0, host.find('\n')), cluster.string(), port, port + 1);
+            host.substr(0, host.find('\n')), cluster.string(), port, port + 1, spool_.string());
         ::setenv("SLURM_CONF", (cluster / "slurm.conf").c_str(), 1);
     }
     ProcessResult shell(const std::string& line) const {
@@ -95,6 +96,9 @@ class SweepSlurm : public CommandLine {
     }
 
   private:
+    // Sockets lie there, and the path of a socket has at most 107 characters.
+    const std::filesystem::path spool_ =
+        std::filesystem::temp_directory_path() / fmt::format("rtusim_spool_{}", ::getpid());
     std::optional<Process> controller_, node_;
 };
 

@@ -242,7 +242,7 @@ TEST_F(TraceCommand, DamageIsNamedAndTheRestRecovered) {
 
 // Nine times the rays, but the same memory: their growth alone would take 29 MB, with the hits.
 TEST_F(TraceCommand, MemoryDoesNotGrowWithTheTrace) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(RTUSIM_IS_SANITIZED)
     GTEST_SKIP() << "the address sanitizer keeps what is freed";
 #endif
     const auto peak = [&](const char* resolution) {
