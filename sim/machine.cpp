@@ -215,7 +215,7 @@ class Machine {
         return config.memory.model == MemoryModel::Flat ? memory_request_depth : config.l1.mshrs;
     }
 
-    const Config& config_;
+    Config config_;
     ClockDomain domain_;
     RaySource source_;
     HitSink sink_;
