@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/config_keys.hpp"
-#include "study/csv.hpp"
+#include "study/json_output.hpp"
 #include "study/mailbox/mailbox_summary.hpp"
 #include "study/text_table.hpp"
 
@@ -47,8 +47,6 @@ Json json(const MailboxRow& row) {
             {"gates", row.gates},
             {"sram_bits", row.sram_bits}};
 }
-
-std::string cell(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 std::string answer(const MailboxReport& report, const std::string& scene) {
     const MailboxWorth worth = worth_in(report, scene);
@@ -115,22 +113,13 @@ std::string mailbox_json(const MailboxReport& report) {
                   {"split_budget_percent", report.split_budget_percent},
                   {"rows", Json::array()}};
     for (const MailboxRow& row : report.rows) document["rows"].push_back(json(row));
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 std::string mailbox_csv(const MailboxReport& report) {
-    std::vector<std::string> header;
-    const Json keys = json(MailboxRow{});
-    for (const auto& [key, value] : keys.items()) header.push_back(key);
-    std::string out = csv_line(header);
-    for (const MailboxRow& row : report.rows) {
-        std::vector<std::string> cells;
-        const Json values = json(row);
-        for (const auto& [key, value] : values.items()) cells.push_back(cell(value));
-        out += csv_line(cells);
-    }
-    return out;
+    std::vector<Json> rows;
+    for (const MailboxRow& row : report.rows) rows.push_back(json(row));
+    return json_rows_csv(json(MailboxRow{}), rows);
 }
 
 }  // namespace rtu::study

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/csv.hpp"
+#include "study/json_output.hpp"
 #include "study/stream/stream_output.hpp"
 
 namespace rtu::study {
@@ -70,8 +71,6 @@ Json json(const PublishedStream& stream) {
             {"row", json(stream.row)}};
 }
 
-std::string cell(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
-
 // Counters of the last two units: the host has only its number of batches.
 std::vector<std::string> counter_cells(const StreamRow& row, bool is_header) {
     std::vector<std::string> cells;
@@ -103,8 +102,7 @@ std::string stream_json(const StreamReport& report) {
     for (const StreamRow& row : report.rows) document["rows"].push_back(json(row));
     for (const StreamBalance& balance : report.balances) document["balances"].push_back(json(balance));
     for (const PublishedStream& stream : report.published) document["published"].push_back(json(stream));
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 std::string stream_csv(const StreamReport& report) {
@@ -115,7 +113,7 @@ std::string stream_csv(const StreamReport& report) {
         const Json values = plain_values(row);
         for (const auto& [key, value] : values.items()) {
             header.push_back(key);
-            cells.push_back(cell(value));
+            cells.push_back(csv_cell(value));
         }
         for (auto& name : counter_cells(row, true)) header.push_back(std::move(name));
         for (auto& value : counter_cells(row, false)) cells.push_back(std::move(value));
