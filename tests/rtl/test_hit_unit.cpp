@@ -81,6 +81,7 @@ TEST(HitUnit, FindsTheHitsOfTheModelInTheDocumentedCycles) {
         EXPECT_GT(paths.times(path), count / 10) << path;
     for (const char* const path : {"ties", "midpoints", "subnormal numbers", "numbers from 2^64 on"})
         EXPECT_GT(paths.times(path), count / 100) << path;
+    EXPECT_LT(paths.times("midpoints"), count / 20);  // or the leading bits settle less than they should
 }
 
 // A lone triangle across a ray along z. The first pass knows the sides of those that the ray does not meet at
