@@ -14,7 +14,6 @@ using Json = nlohmann::ordered_json;
 // What is one number or word of a row, for JSON and CSV alike.
 Json plain_values(const StreamRow& row) {
     const sim::StreamResult& result = row.result;
-    const double mrps = double(row.ray_count) / double(result.cycles) * row.clock_mhz;
     return {{"mode", row.mode},
             {"link", row.link},
             {"read_back", row.read_back},
@@ -27,9 +26,10 @@ Json plain_values(const StreamRow& row) {
             {"cycles", result.cycles},
             {"clock_mhz", row.clock_mhz},
             {"tests_per_second", row.tests_per_second()},
-            {"mrps", mrps},
+            {"mrps", row.mrps()},
             {"alone_cycles", row.alone_cycles},
             {"alone_tests_per_second", row.alone_tests_per_second()},
+            {"alone_mrps", row.alone_mrps()},
             {"machine_cycles", result.time.machine_cycles},
             {"read_back_cycles", result.time.read_back_cycles},
             {"upload_cycles", result.time.upload_cycles},
