@@ -70,7 +70,8 @@ Vec3 draw_target(RandomStream& random, const Corners& corners, Target target) {
     const Vec3 a = corners[corner], b = corners[(corner + 1) % 3];
     if (target == Target::Vertex) return a;
     if (target == Target::Edge) return a + (b - a) * random.next();
-    return mix(corners, draw_between(random, -1, 2), draw_between(random, -1, 2));
+    const float v = draw_between(random, -1, 2), u = draw_between(random, -1, 2);
+    return mix(corners, u, v);
 }
 
 DrawProbe probe_of_size(float size, float distance, float offset, Target target) {
@@ -115,7 +116,8 @@ DrawProbe probe_at_angle(float angle) {
 DrawProbe probe_of_sliver(float ratio, Target target) {
     return [=](RandomStream& random) {
         Corners triangle = any_triangle(random, 1);
-        triangle[2] = triangle[0] + (triangle[1] - triangle[0]) * random.next() + draw_point(random, ratio);
+        const Vec3 beside = draw_point(random, ratio);
+        triangle[2] = triangle[0] + (triangle[1] - triangle[0]) * random.next() + beside;
         const Vec3 aim = draw_target(random, triangle, target);
         return Probe{ray_through(draw_point(random, 3), aim), triangle};
     };
@@ -221,7 +223,8 @@ DrawFan fan_at_edge(std::uint32_t leaves) {
             const Vec3 tip = draw_point(random, 1);
             fan.triangles.push_back(i % 2 == 0 ? Corners{a, b, tip} : Corners{b, a, tip});
         }
-        fan.ray = ray_through(draw_point(random, 3), a + (b - a) * draw_between(random, 0.125F, 0.875F));
+        const Vec3 target = a + (b - a) * draw_between(random, 0.125F, 0.875F);
+        fan.ray = ray_through(draw_point(random, 3), target);
         return fan;
     };
 }

@@ -55,7 +55,8 @@ class SceneTriangles {
   private:
     // More triangles than a single number of 24 bits can tell apart.
     [[nodiscard]] std::uint32_t below(RandomStream& random) const {
-        const double share = double(random.next()) + double(random.next()) * 0x1p-24;
+        const float high = random.next(), low = random.next();
+        const double share = double(high) + double(low) * 0x1p-24;
         return std::min(std::uint32_t(share * double(triangles_.size())),
                         std::uint32_t(triangles_.size() - 1));
     }

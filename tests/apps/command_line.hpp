@@ -32,7 +32,7 @@ class CommandLine : public testing::Test {
     }
 
     Process start(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(), RTUSIM_EXECUTABLE);
+        arguments.insert(arguments.begin(), program_path());
         return Process(folder_.path(), arguments);
     }
     ProcessResult run(const std::vector<std::string>& arguments) const { return start(arguments).wait(); }

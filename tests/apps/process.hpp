@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,6 +12,14 @@
 #include <vector>
 
 namespace rtu::test {
+
+/// A program built with the sanitizers that stands in for this build's; null: none does.
+inline const char* sanitized_program() { return std::getenv("RTUSIM_SANITIZED_PROGRAM"); }
+
+/// The program that is tested.
+inline std::string program_path() {
+    return sanitized_program() != nullptr ? sanitized_program() : RTUSIM_EXECUTABLE;
+}
 
 /// What a finished program left.
 struct ProcessResult {

@@ -21,7 +21,7 @@ class CommandLineErrors : public CommandLine {
   protected:
     // Runs a line of shell in which $RTUSIM is the program and $RUN a quick run of the small scene.
     ProcessResult run_shell(const std::string& line) const {
-        const std::string names = std::string("RTUSIM=") + RTUSIM_EXECUTABLE +
+        const std::string names = "RTUSIM=" + program_path() +
                                   "; RUN=\"$RTUSIM run ball.glb --resolution 8x8 --workload primary\"; ";
         return Process(folder_.path(), {"/bin/sh", "-c", names + line}).wait();
     }

@@ -135,7 +135,7 @@ TEST_F(PairingCommand, WritesChartsAndAPage) {
 TEST_F(PairingCommand, WithoutGnuplotAChartIsRefusedBeforeTheSimulation) {
     for (const char* option : {"--html", "--charts"}) {
         const ProcessResult result =
-            Process(folder_.path(), {"/usr/bin/env", "PATH=/nonexistent", RTUSIM_EXECUTABLE, "pairing",
+            Process(folder_.path(), {"/usr/bin/env", "PATH=/nonexistent", program_path(), "pairing",
                                      "ball.glb", option, "out"})
                 .wait();
         EXPECT_EQ(result.exit_code, 1);

@@ -47,7 +47,7 @@ class SweepCommand : public CommandLine {
         return result.out;
     }
     ProcessResult shell(const std::string& line) const {
-        const std::string program = std::string("RTUSIM=") + RTUSIM_EXECUTABLE + "; ";
+        const std::string program = "RTUSIM=" + program_path() + "; ";
         return Process(folder_.path(), {"/bin/bash", "-c", program + line}).wait();
     }
     // All rows of all tables but those of the host, as text.
@@ -285,9 +285,8 @@ TEST_F(SweepCommand, ExamplesAreSweeps) {
 
 // A machine that needs more memory than there may be: its point fails, the others do not.
 TEST_F(SweepCommand, FailedPointsAreListedAndTheOthersDone) {
-#if defined(RTUSIM_IS_SANITIZED)
-    GTEST_SKIP() << "the address sanitizer needs all of the address space";
-#endif
+    if (sanitized_program() != nullptr)
+        GTEST_SKIP() << "the address sanitizer needs all of the address space";
     static_cast<void>(folder_.write(
         "s.toml",
         "scenes = [\"ball.glb\"]\nworkloads = [\"primary\"]\nresolution = [4, 4]\n[set]\nl2.line_bytes = 32\n"

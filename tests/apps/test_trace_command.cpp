@@ -52,7 +52,7 @@ class TraceCommand : public CommandLine {
         expect_refusal(arguments, text);
     }
     ProcessResult shell(const std::string& line) const {
-        const std::string program = std::string("RTUSIM=") + RTUSIM_EXECUTABLE + "; ";
+        const std::string program = "RTUSIM=" + program_path() + "; ";
         return Process(folder_.path(), {"/bin/bash", "-c", program + line}).wait();
     }
 };
@@ -242,9 +242,7 @@ TEST_F(TraceCommand, DamageIsNamedAndTheRestRecovered) {
 
 // Nine times the rays, but the same memory: their growth alone would take 29 MB, with the hits.
 TEST_F(TraceCommand, MemoryDoesNotGrowWithTheTrace) {
-#if defined(RTUSIM_IS_SANITIZED)
-    GTEST_SKIP() << "the address sanitizer keeps what is freed";
-#endif
+    if (sanitized_program() != nullptr) GTEST_SKIP() << "the address sanitizer keeps what is freed";
     const auto peak = [&](const char* resolution) {
         const ProcessResult recorded = run({"trace", "record", "ball.glb", "a.rtutrace", "--workload",
                                             "primary", "--resolution", resolution});
