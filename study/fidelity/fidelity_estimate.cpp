@@ -7,23 +7,36 @@
 #include <vector>
 
 #include "study/fidelity/analytic_model.hpp"
+#include "study/fidelity/fidelity_windows.hpp"
 
 namespace rtu::study {
 namespace {
 
-constexpr std::size_t covariate_count = 5, least = 4;  // the place of the last one
+// The places of what the cycles of blocks and windows are taken to be linear in.
+enum Covariate : std::size_t { rays, boxes, pairs, hits, alone, least, covariate_count };
 using Vector = std::array<double, covariate_count>;
 using Matrix = std::array<Vector, covariate_count>;
 
-// What the cycles of a window are taken to be linear in: what keeps the units busy, and what keeps the
-// busiest of them busy, block by block. The hit units' part is that of `traced`.
-Vector covariates(const sim::Config& config, const RayWork& work, const RayWork& traced,
+// What keeps the units busy, and the busiest of them: ray by ray, and block by block.
+Vector covariates(const sim::Config& config, const RayWork& work, double least_cycles_alone,
                   double least_cycles) {
     const bool takes_whole_nodes = config.rtu.box.boxes_per_cycle >= config.bvh.width;
     const bool takes_whole_pairs = config.rtu.pair.mode != sim::PairMode::Single;
-    return {work.rays, takes_whole_nodes ? work.node_visits : work.box_tests,
-            takes_whole_pairs ? work.pair_tests : work.triangle_tests, hit_unit_cycles(config, traced),
+    return {work.rays,
+            takes_whole_nodes ? work.node_visits : work.box_tests,
+            takes_whole_pairs ? work.pair_tests : work.triangle_tests,
+            hit_unit_cycles(config, work),
+            least_cycles_alone,
             least_cycles};
+}
+
+// Of a window: each covariate costs a degree of freedom, and with more than these three two dozen windows are
+// off by a tenth more and their intervals hold less. Pairs and hit units are in the least cycles where they
+// matter.
+Vector window_covariates(const sim::Config& config, const WindowSample& window) {
+    Vector x = covariates(config, window.work, 0, window.traced.least_cycles);
+    x[pairs] = x[hits] = 0;
+    return x;
 }
 
 double dot(const Vector& a, const Vector& b) {
@@ -122,10 +135,6 @@ struct Spread {
     double quantile = 0;
 };
 
-Spread narrower(const Spread& a, const Spread& b) {
-    return a.quantile * std::sqrt(a.variance) < b.quantile * std::sqrt(b.variance) ? a : b;
-}
-
 Spread spread_of_residuals(const Fit& fit) {
     const auto n = double(fit.residuals.size());
     const double freedom = std::max(1.0, n - fit.rank);
@@ -136,10 +145,11 @@ Spread spread_of_residuals(const Fit& fit) {
 
 // Of residuals in order, one from each of equal parts, what varies slowly along the run is no error; only
 // what neighbours differ by is. That is known less well: two thirds of the degrees of freedom [Wolter07, ch.
-// 8].
+// 8]. So few windows gain nothing by it.
+constexpr std::size_t fewest_neighbours = 40;
+
 Spread spread_of_neighbours(const Fit& fit) {
     const auto n = double(fit.residuals.size());
-    if (n < 2) return spread_of_residuals(fit);
     const double freedom = std::max(1.0, n - fit.rank);
     return {variance_of_mean(fit.residuals) * n * n / freedom,
             t_quantile(std::max(1.0, 2.0 / 3 * (n - 1) - fit.rank + 1))};
@@ -157,9 +167,7 @@ std::vector<WindowSample> in_order(std::span<const WindowMeasurement> passes) {
 Fit fit_windows(const sim::Config& config, std::span<const WindowMeasurement> passes) {
     std::vector<Observation> observations;
     for (const WindowSample& window : in_order(passes)) {
-        const RayWork& traced = window.traced.work;
-        observations.push_back(
-            {window.cycles, covariates(config, window.work, traced, window.traced.least_cycles)});
+        observations.push_back({window.cycles, window_covariates(config, window)});
     }
     return fit(observations);
 }
@@ -169,21 +177,22 @@ Fit fit_blocks(const sim::Config& config, std::span<const WindowMeasurement> pas
     std::vector<Observation> observations;
     for (const WindowMeasurement& pass : passes) {
         for (const TracedWork& block : pass.blocks) {
-            observations.push_back({block.least_cycles, covariates(config, block.work, block.work, 0)});
+            observations.push_back(
+                {block.least_cycles, covariates(config, block.work, block.least_cycles_alone, 0)});
         }
     }
     return fit(observations);
 }
 
 // Two phases [Cochran77, ch. 12]: the lattice tells the mean work, the blocks what the busiest unit takes
-// beyond what follows from the work.
+// beyond what follows from the work of their rays one by one.
 class Population {
   public:
     Population(const sim::Config& config, std::span<const WindowMeasurement> passes)
-        : blocks_(fit_blocks(config, passes)), block_length_(passes.back().block_length) {
+        : blocks_(fit_blocks(config, passes)), block_length_(passes.front().block_length) {
         for (const WindowMeasurement& pass : passes) {
             for (const RayWork& work : pass.lattice) {
-                Vector& x = lattice_.emplace_back(covariates(config, work, work, 0));
+                Vector& x = lattice_.emplace_back(covariates(config, work, least_cycles(config, work), 0));
                 x[least] = dot(blocks_.beta, x);
             }
         }
@@ -199,7 +208,7 @@ class Population {
     [[nodiscard]] double variance_of_cost(const Vector& beta, double cycles_per_ray) const {
         std::vector<double> values;
         values.reserve(lattice_.size());
-        for (const Vector& x : lattice_) values.push_back(dot(beta, x) - cycles_per_ray * x[0]);
+        for (const Vector& x : lattice_) values.push_back(dot(beta, x) - cycles_per_ray * x[rays]);
         const double of_block = beta[least] / block_length_;
         return variance_of_mean(values) + of_block * of_block * variance_of_mean(blocks_.residuals);
     }
@@ -213,18 +222,25 @@ class Population {
 
 }  // namespace
 
+CycleEstimate widened(CycleEstimate estimate, double bias, double above) {
+    const double half = std::hypot(estimate.relative_half_width(), bias);
+    estimate.low = estimate.cycles_per_ray * std::max(0.0, 1 - half);
+    estimate.high = estimate.cycles_per_ray * (1 + half + above);
+    return estimate;
+}
+
 double t_quantile(double degrees_of_freedom) {
     return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
 }
 
 CycleEstimate estimate_cycles(const sim::Config& config, std::span<const WindowMeasurement> passes) {
-    const WindowMeasurement& latest = passes.back();
+    const WindowMeasurement& begun = passes.front();
     const Fit fitted = fit_windows(config, passes);
     const Population population(config, passes);
 
-    const auto length = double(latest.window_length);
-    const auto windows = double(latest.middle_length) / length;  // in the middle
-    Vector wanted{};                                             // of a window, in the mean
+    const auto length = double(begun.window_length);
+    const auto windows = double(begun.middle_length) / length;  // in the middle
+    Vector wanted{};                                            // of a window, in the mean
     Vector apart{};
     for (std::size_t i = 0; i < covariate_count; ++i) {
         wanted[i] = population.mean()[i] * length;
@@ -232,15 +248,16 @@ CycleEstimate estimate_cycles(const sim::Config& config, std::span<const WindowM
     }
     const double middle_cycles = windows * (dot(fitted.beta, wanted) + fitted.mean_residual);
     CycleEstimate estimate;
-    estimate.rays = latest.first.work.rays + windows * wanted[0] + latest.last.work.rays;
-    const double cycles = latest.first.cycles + middle_cycles + latest.last.cycles;
+    estimate.rays = begun.first.work.rays + windows * wanted[rays] + begun.last.work.rays;
+    const double cycles = begun.first.cycles + middle_cycles + begun.last.cycles;
     if (estimate.rays <= 0) return estimate;
     estimate.cycles_per_ray = cycles / estimate.rays;
 
     double leverage = 1 / double(fitted.residuals.size());
     for (std::size_t i = 0; i < covariate_count; ++i) leverage += apart[i] * dot(fitted.inverse[i], apart);
-    // Each of the two is too large rather than too small.
-    const Spread spread = narrower(spread_of_residuals(fitted), spread_of_neighbours(fitted));
+    // By their number, not by their result: the narrower of two intervals would hold less than either.
+    const Spread spread = fitted.residuals.size() < fewest_neighbours ? spread_of_residuals(fitted)
+                                                                      : spread_of_neighbours(fitted);
     // The lattice has thousands of rays: the normal distribution will do for its part.
     const double of_windows = spread.quantile * spread.quantile * spread.variance * leverage;
     const double of_population =
