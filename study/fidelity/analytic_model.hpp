@@ -26,9 +26,9 @@ struct Demand {
 struct AnalyticResult {
     double cycles_per_ray = 0;  ///< of the whole machine
     double rays = 0;
-    std::string_view bottleneck;   ///< the part with the largest demand, over all rays
-    double memory_share = 0;       ///< of the cycles, that a cache without misses would save, 0 to 1
-    double ends_share = 0;         ///< of the cycles, in which the machine fills or runs empty, 0 to 1
+    std::string_view bottleneck;  ///< the part with the largest demand, over all rays
+    double memory_share = 0;      ///< of the cycles, that a cache without misses would save, 0 to 1
+    double ends_share = 0;        ///< of the cycles, in which the machine fills or runs empty, 0 to 1
 };
 
 /// Every block as a closed queueing network: `rtu.ray_slots` rays go round the parts of an RTU.

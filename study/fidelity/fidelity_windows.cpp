@@ -213,11 +213,13 @@ class Measuring {
     // Without a clock; its memory accesses go into the caches when it `warms` them.
     RayWork trace(const model::Ray& ray, bool warms) {
         const std::uint32_t rtu = std::uint32_t(result_.traced_rays++ % config_.rtu.count);
-        if (!walk_.start(image_, ray, population_.kind())) return walk_.work();
-        do
-            if (warms) session_.warm(rtu, walk_.address(), walk_.size_bytes(image_));
-        while (walk_.step(image_));
-        return walk_.work();
+        model::trace(stack_, image_, ray, population_.kind(), log_);
+        if (warms) {
+            for (const model::NodeRef ref : log_.visits) {
+                session_.warm(rtu, ref.address(), fetched_bytes(image_, ref));
+            }
+        }
+        return work_of(log_);
     }
 
     const sim::Config& config_;
@@ -230,7 +232,8 @@ class Measuring {
     bool has_ends_, has_image_in_l2_;
     std::size_t traced_ = 0;  // of the lattice
     std::uint64_t handed_ = 0;
-    FunctionalWalk walk_;
+    model::TraversalStack stack_;
+    model::TraversalLog log_;
     WindowMeasurement result_;
 };
 

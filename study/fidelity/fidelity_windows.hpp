@@ -62,7 +62,8 @@ struct WindowMeasurement {
     std::uint64_t traced_rays = 0;  ///< without a clock
 };
 
-/// Positions that a plan looks at with the clock; some more where two windows of earlier plans share a stratum.
+/// Positions that a plan looks at with the clock; some more where two windows of earlier plans share a
+/// stratum.
 [[nodiscard]] std::uint64_t simulated_length(const WindowPlan& plan);
 
 /// Measures. The windows, with the rays before them, must fit into the population: see simulated_length().

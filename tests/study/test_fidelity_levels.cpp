@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "model/builtin_scene.hpp"
@@ -244,6 +245,39 @@ TEST_F(Windows, WithTheImageInTheL2DramIsNotAsked) {
     EXPECT_GT(cycles(slow), cycles({}));
     plan_.has_image_in_l2 = true;
     EXPECT_EQ(cycles(slow), cycles({}));
+}
+
+// The log of a whole traversal is what the walk does step by step.
+TEST(TraversalLog, IsTheWalkStepByStep) {
+    const Ball ball;
+    for (const model::RayKind kind : {model::RayKind::ClosestHit, model::RayKind::AnyHit}) {
+        FunctionalWalk walk;
+        model::TraversalStack stack;
+        model::TraversalLog log;
+        double pairs = 0;
+        for (const model::Ray& ray : ball.rays) {
+            model::trace(stack, ball.image, ray, kind, log);
+            ASSERT_TRUE(walk.start(ball.image, ray, kind));
+            std::size_t visited = 0;
+            do {
+                ASSERT_LT(visited, log.visits.size());
+                EXPECT_EQ(log.visits[visited].address(), walk.address());
+                EXPECT_EQ(fetched_bytes(ball.image, log.visits[visited++]), walk.size_bytes(ball.image));
+            } while (walk.step(ball.image));
+            EXPECT_EQ(visited, log.visits.size());
+            const RayWork a = work_of(log), b = walk.work();
+            EXPECT_EQ((std::array{a.rays, a.node_visits, a.box_tests, a.leaf_visits, a.pair_tests}),
+                      (std::array{b.rays, b.node_visits, b.box_tests, b.leaf_visits, b.pair_tests}));
+            EXPECT_EQ(
+                (std::array{a.triangle_tests, a.survivor_pairs, a.survivors, a.better_hits, a.side_tests}),
+                (std::array{b.triangle_tests, b.survivor_pairs, b.survivors, b.better_hits, b.side_tests}));
+            pairs += a.survivor_pairs;
+        }
+        EXPECT_GT(pairs, 0);
+        model::trace(stack, ball.image, {{0, 0, 0}, 0, {0, 0, 0}, 1}, kind, log);
+        EXPECT_TRUE(log.visits.empty());
+        EXPECT_EQ(work_of(log).pair_tests, 0);
+    }
 }
 
 TEST(StoredPopulation, FewRaysAreAllSimulated) {
