@@ -1,14 +1,12 @@
 #include "apps/area_command.hpp"
 
-#include <tbb/global_control.h>
-
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "apps/chart_files.hpp"
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -58,24 +56,13 @@ void add_options(CLI::App& area, Arguments& arguments) {
                     "glTF 2.0 files (.gltf, .glb) to simulate, or `builtin`; none: areas only")
         ->type_name("");
     add_machine_options(area, arguments.machine);
-    area.add_option("--workload", arguments.workloads, "rays, of primary, shadow, ao, diffuse, random")
-        ->type_name("LIST")
-        ->capture_default_str();
-    area.add_option("--resolution", arguments.resolution, "picture size in pixels, one primary ray each")
-        ->type_name("WxH")
-        ->capture_default_str();
-    area.add_option("--camera", arguments.camera, "TOML with cameras by scene name, as in `rtusim run`")
-        ->type_name("FILE")
-        ->check(is_not_empty());
-    area.add_option("--seed", arguments.seed, "of the random numbers of ao, diffuse and random rays")
-        ->type_name("N")
-        ->capture_default_str();
+    add_workloads_option(area, arguments.workloads);
+    add_resolution_option(area, arguments.resolution);
+    add_camera_option(area, arguments.camera);
+    add_seed_option(area, arguments.seed);
     add_report_options(area, arguments.output);
     add_chart_file_options(area, arguments.charts);
-    area.add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    add_threads_option(area, arguments.threads);
 }
 
 study::AreaOptions options_of(const Arguments& arguments) {
@@ -91,12 +78,7 @@ study::AreaOptions options_of(const Arguments& arguments) {
     options.seed = parse_seed(arguments.seed);
     options.camera_file = optional_path(arguments.camera);
     check_cameras(options.camera_file, options.scenes);
-    std::set<std::string> names;
-    for (const study::SceneSource& scene : options.scenes) {
-        if (!names.insert(scene.name()).second) {
-            throw Error("two scenes are called '{}', and the report could not tell them apart", scene.name());
-        }
-    }
+    check_scene_names(options.scenes);
     return options;
 }
 
@@ -109,19 +91,10 @@ study::AreaReport measure(study::AreaOptions& options) {
 int run_area(const Arguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::AreaOptions options = options_of(arguments);
-    std::vector<std::filesystem::path> inputs;
-    for (const study::SceneSource& scene : options.scenes) {
-        if (scene.file) inputs.push_back(*scene.file);
-    }
-    for (const std::string& name : {arguments.camera, arguments.machine.file}) {
-        if (!name.empty()) inputs.emplace_back(name);
-    }
+    const auto inputs = input_files(options.scenes, {arguments.camera, arguments.machine.file});
     check_report_output(arguments.output, inputs);
     check_chart_files(arguments.charts, arguments.output, inputs);
-    std::optional<tbb::global_control> limit;
-    if (arguments.threads > 0) {
-        limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
-    }
+    const ThreadLimit limit(arguments.threads);
     const study::AreaReport report = measure(options);
     std::vector<study::OutputFile> files;
     if (!arguments.charts.html.empty()) files.push_back({arguments.charts.html, study::area_html(report)});

@@ -1,13 +1,13 @@
 #include "apps/chart_command.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -76,9 +76,7 @@ void add_options(CLI::App& chart, Arguments& arguments) {
     chart.add_option("--camera", arguments.camera, "TOML with its camera, as in `rtusim run`")
         ->type_name("FILE")
         ->check(is_not_empty());
-    chart.add_option("--seed", arguments.seed, "of the random numbers")
-        ->type_name("N")
-        ->capture_default_str();
+    add_seed_option(chart, arguments.seed);
     chart.add_option("--threads", arguments.threads, "host threads at most, 0: all; timings use one")
         ->type_name("N")
         ->check(CLI::Range(0, 1024))
@@ -118,10 +116,7 @@ int run_chart(const Arguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::ChartOptions options = options_of(arguments);
     check_outputs(arguments);
-    std::optional<tbb::global_control> limit;
-    if (arguments.threads > 0) {
-        limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
-    }
+    const ThreadLimit limit(arguments.threads);
     const std::vector<study::NamedChart> charts = measure(options);
     std::vector<study::OutputFile> files;
     std::string said;

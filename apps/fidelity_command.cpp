@@ -1,13 +1,13 @@
 #include "apps/fidelity_command.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -51,8 +51,7 @@ struct Arguments {
 };
 
 void add_study_options(CLI::App& fidelity, Arguments& arguments) {
-    fidelity.add_option("SCENE", arguments.scenes, "glTF 2.0 files (.gltf, .glb); none: the built-in scene")
-        ->type_name("");
+    add_scenes_option(fidelity, arguments.scenes);
     const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
         fidelity.add_option(name, value, help)->type_name(type)->capture_default_str();
     };
@@ -63,9 +62,7 @@ void add_study_options(CLI::App& fidelity, Arguments& arguments) {
     add("--resolution", arguments.resolution, "picture size in pixels", "WxH");
     add("--tolerance", arguments.tolerance, "of sampled and auto, in % of MRPS, 0.6 to 50", "PCT");
     add("--seed", arguments.seed, "of the random numbers", "N");
-    fidelity.add_option("--camera", arguments.camera, "TOML with cameras by scene name, as in `rtusim run`")
-        ->type_name("FILE")
-        ->check(is_not_empty());
+    add_camera_option(fidelity, arguments.camera);
     fidelity.add_flag("--no-ranking", arguments.has_no_ranking,
                       "leave out the 20 machines: the first scene and machine, the last workload");
 }
@@ -130,7 +127,7 @@ int run_fidelity(const Arguments& arguments) {
     study::FidelityOptions options = options_of(arguments);
     check_outputs(arguments);
     // One thread: CPU seconds of several on the same caches would compare badly.
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    const ThreadLimit limit(1);
     study::FidelityReport report;
     {
         Progress progress;

@@ -1,16 +1,15 @@
 #include "apps/mailbox_command.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "apps/chart_files.hpp"
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -58,8 +57,7 @@ struct Arguments {
 };
 
 void add_options(CLI::App& mailbox, Arguments& arguments) {
-    mailbox.add_option("SCENE", arguments.scenes, "glTF 2.0 files (.gltf, .glb); none: the built-in scene")
-        ->type_name("");
+    add_scenes_option(mailbox, arguments.scenes);
     add_machine_options(mailbox, arguments.machine);
     mailbox.add_option("--pairings", arguments.pairings, "METHODs as in `run`; the first is the baseline")
         ->type_name("LIST")
@@ -67,26 +65,15 @@ void add_options(CLI::App& mailbox, Arguments& arguments) {
     mailbox.add_option("--entries", arguments.entries, "of mailboxes of the last pairs, 1 to 16 each")
         ->type_name("LIST")
         ->capture_default_str();
-    mailbox.add_option("--workload", arguments.workloads, "rays, of primary, shadow, ao, diffuse, random")
-        ->type_name("LIST")
-        ->capture_default_str();
-    mailbox.add_option("--resolution", arguments.resolution, "picture size in pixels, one primary ray each")
-        ->type_name("WxH")
-        ->capture_default_str();
-    mailbox.add_option("--camera", arguments.camera, "TOML with cameras by scene name, as in `rtusim run`")
-        ->type_name("FILE")
-        ->check(is_not_empty());
-    mailbox.add_option("--seed", arguments.seed, "of the random numbers of ao, diffuse and random rays")
-        ->type_name("N")
-        ->capture_default_str();
+    add_workloads_option(mailbox, arguments.workloads);
+    add_resolution_option(mailbox, arguments.resolution);
+    add_camera_option(mailbox, arguments.camera);
+    add_seed_option(mailbox, arguments.seed);
     add_report_options(mailbox, arguments.output);
     mailbox.add_option("--charts", arguments.folder, "draw every chart into this folder, as SVG and PNG")
         ->type_name("DIR")
         ->check(is_not_empty());
-    mailbox.add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    add_threads_option(mailbox, arguments.threads);
 }
 
 std::vector<std::uint32_t> parse_entries(const std::string& text) {
@@ -140,32 +127,18 @@ study::MailboxStudyOptions options_of(const Arguments& arguments) {
     options.seed = parse_seed(arguments.seed);
     options.camera_file = optional_path(arguments.camera);
     check_cameras(options.camera_file, options.scenes);
-    std::set<std::string> names;
-    for (const study::SceneSource& scene : options.scenes) {
-        if (!names.insert(scene.name()).second) {
-            throw Error("two scenes are called '{}', and the report could not tell them apart", scene.name());
-        }
-    }
+    check_scene_names(options.scenes);
     return options;
 }
 
 int run_mailbox(const Arguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::MailboxStudyOptions options = options_of(arguments);
-    std::vector<std::filesystem::path> inputs;
-    for (const study::SceneSource& scene : options.scenes) {
-        if (scene.file) inputs.push_back(*scene.file);
-    }
-    for (const std::string& name : {arguments.camera, arguments.machine.file}) {
-        if (!name.empty()) inputs.emplace_back(name);
-    }
+    const auto inputs = input_files(options.scenes, {arguments.camera, arguments.machine.file});
     const ChartFiles charts{"", arguments.folder};
     check_report_output(arguments.output, inputs);
     check_chart_files(charts, arguments.output, inputs);
-    std::optional<tbb::global_control> limit;
-    if (arguments.threads > 0) {
-        limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
-    }
+    const ThreadLimit limit(arguments.threads);
     Progress progress;
     options.progress = [&](std::string_view scene, std::string_view phase) { progress.show(scene, phase); };
     const study::MailboxReport report = study::run_mailbox_study(options);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -80,12 +81,8 @@ void add_options(CLI::App& methods, Arguments& arguments) {
                     "a scene's rays, of primary, shadow, ao, diffuse, random")
         ->type_name("LIST")
         ->capture_default_str();
-    methods.add_option("--camera", arguments.camera, "TOML with cameras by scene name, as in `rtusim run`")
-        ->type_name("FILE")
-        ->check(is_not_empty());
-    methods.add_option("--seed", arguments.seed, "of the random numbers")
-        ->type_name("N")
-        ->capture_default_str();
+    add_camera_option(methods, arguments.camera);
+    add_seed_option(methods, arguments.seed);
     add_report_options(methods, arguments.output);
 }
 

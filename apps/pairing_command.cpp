@@ -1,13 +1,13 @@
 #include "apps/pairing_command.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/pairing_command_plan.hpp"
 #include "apps/progress.hpp"
@@ -43,8 +43,7 @@ std::string footer() {
 }
 
 void add_comparison_options(CLI::App& pairing, PairingArguments& arguments) {
-    pairing.add_option("SCENE", arguments.scenes, "glTF 2.0 files (.gltf, .glb); none: the built-in scene")
-        ->type_name("");
+    add_scenes_option(pairing, arguments.scenes);
     pairing.add_option("--baseline", arguments.baseline, "the pairing to compare with: a METHOD as in `run`")
         ->type_name("METHOD")
         ->capture_default_str();
@@ -62,28 +61,15 @@ void add_comparison_options(CLI::App& pairing, PairingArguments& arguments) {
 }
 
 void add_ray_options(CLI::App& pairing, PairingArguments& arguments) {
-    pairing
-        .add_option("--workload", arguments.workloads,
-                    "rays to trace, of primary, shadow, ao, diffuse, random")
-        ->type_name("LIST")
-        ->capture_default_str();
-    pairing.add_option("--resolution", arguments.resolution, "picture size in pixels, one primary ray each")
-        ->type_name("WxH")
-        ->capture_default_str();
-    pairing
-        .add_option("--camera", arguments.camera,
-                    "TOML with eye, target, up, tan_half_fov, in a table named like the scene;\n"
-                    "without it, or without the scene's table, the camera is automatic")
-        ->type_name("FILE")
-        ->check(is_not_empty());
+    add_workloads_option(pairing, arguments.workloads);
+    add_resolution_option(pairing, arguments.resolution);
+    add_camera_option(pairing, arguments.camera);
     pairing
         .add_option("--rotate", arguments.rotation,
                     "degrees about x, then y, then z; mesh and camera turn together")
         ->type_name("AX,AY,AZ")
         ->capture_default_str();
-    pairing.add_option("--seed", arguments.seed, "of the random numbers of ao, diffuse and random rays")
-        ->type_name("N")
-        ->capture_default_str();
+    add_seed_option(pairing, arguments.seed);
 }
 
 void add_output_options(CLI::App& pairing, PairingArguments& arguments) {
@@ -103,10 +89,7 @@ void add_output_options(CLI::App& pairing, PairingArguments& arguments) {
                     "write every chart as SVG and PNG there; made if missing (needs gnuplot)")
         ->type_name("DIR")
         ->check(is_not_empty());
-    pairing.add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    add_threads_option(pairing, arguments.threads);
 }
 
 study::PairingReport compare(PairingPlan& plan) {
@@ -135,9 +118,7 @@ void write_outputs(const PairingPlan& plan, const study::PairingReport& report) 
 int run_pairing(const PairingArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     PairingPlan plan = make_pairing_plan(arguments);
-    std::optional<tbb::global_control> limit;
-    if (plan.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, plan.threads);
-
+    const ThreadLimit limit(plan.threads);
     const study::PairingReport report = compare(plan);
     write_outputs(plan, report);
     print_all(plan.is_json_to_stdout ? study::pairing_json(report) : study::pairing_text(report));

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <set>
 #include <string_view>
 
+#include "apps/common_options.hpp"
 #include "apps/option_values.hpp"
 #include "model/error.hpp"
 #include "model/one_line.hpp"
@@ -103,13 +103,7 @@ study::PairingOptions parse_options(const PairingArguments& arguments) {
 // Studies and charts tell scenes apart by their names.
 void check_names(const PairingPlan& plan) {
     if (plan.options.studies.empty() && !plan.html && !plan.chart_folder) return;
-    std::set<std::string> names;
-    for (const study::SceneSource& scene : plan.scenes) {
-        if (!names.insert(scene.name()).second) {
-            throw Error("two scenes are called '{}', and studies and charts could not tell them apart",
-                        scene.name());
-        }
-    }
+    check_scene_names(plan.scenes);
 }
 
 void check_outputs(const PairingPlan& plan, const PairingArguments& arguments) {

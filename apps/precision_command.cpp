@@ -1,7 +1,6 @@
 #include "apps/precision_command.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -55,8 +55,7 @@ std::string footer() {
 }
 
 void add_study_options(CLI::App& precision, Arguments& arguments) {
-    precision.add_option("SCENE", arguments.scenes, "glTF 2.0 files (.gltf, .glb); none: the built-in scene")
-        ->type_name("");
+    add_scenes_option(precision, arguments.scenes);
     precision.add_option("--method", arguments.methods, "only these, see below")
         ->type_name("LIST")
         ->check(is_not_empty());
@@ -77,24 +76,14 @@ void add_study_options(CLI::App& precision, Arguments& arguments) {
         ->type_name("X")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    precision.add_option("--workload", arguments.workloads, "rays, of primary, shadow, ao, diffuse, random")
-        ->type_name("LIST")
-        ->capture_default_str();
-    precision.add_option("--camera", arguments.camera, "TOML with cameras by scene name, as in `rtusim run`")
-        ->type_name("FILE")
-        ->check(is_not_empty());
-    precision.add_option("--seed", arguments.seed, "of the random numbers")
-        ->type_name("N")
-        ->capture_default_str();
+    add_workloads_option(precision, arguments.workloads);
+    add_camera_option(precision, arguments.camera);
+    add_seed_option(precision, arguments.seed);
 }
 
 void add_output_options(CLI::App& precision, Arguments& arguments) {
     add_report_options(precision, arguments.output);
-    precision
-        .add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    add_threads_option(precision, arguments.threads);
 }
 
 void check_methods(const std::vector<std::string>& names) {
@@ -137,10 +126,7 @@ int run_precision(const Arguments& arguments) {
     std::vector<std::filesystem::path> inputs(arguments.scenes.begin(), arguments.scenes.end());
     if (!arguments.camera.empty()) inputs.emplace_back(arguments.camera);
     check_report_output(arguments.output, inputs);
-    std::optional<tbb::global_control> limit;
-    if (arguments.threads > 0) {
-        limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
-    }
+    const ThreadLimit limit(arguments.threads);
     const study::PrecisionReport report = measure(options);
     write_report(arguments.output, study::precision_text(report), study::precision_json(report),
                  study::precision_csv(report));

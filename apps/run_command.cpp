@@ -1,13 +1,13 @@
 #include "apps/run_command.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/progress.hpp"
 #include "apps/run_options.hpp"
@@ -91,9 +91,7 @@ int run_estimates(RunPlan& plan) {
 int run_scenes(const RunArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     RunPlan plan = make_run_plan(arguments);
-    std::optional<tbb::global_control> limit;
-    if (plan.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, plan.threads);
-
+    const ThreadLimit limit(plan.threads);
     if (plan.fidelity != study::FidelityLevel::Cycle) return run_estimates(plan);
     const std::vector<study::SceneReport> reports = simulate(plan);
     write_outputs(plan, reports);
@@ -111,8 +109,7 @@ void add_run_command(CLI::App& app, std::function<int()>& command) {
     CLI::App* run_app = app.add_subcommand("run", "simulate scenes and report tests, cycles and MRPS");
     run_app->footer(footer);
     run_app->get_formatter()->column_width(34);
-    run_app->add_option("SCENE", arguments->scenes, "glTF 2.0 files (.gltf, .glb); none: the built-in scene")
-        ->type_name("");
+    add_scenes_option(*run_app, arguments->scenes);
     CLI::Option* rays =
         run_app
             ->add_option("--rays", arguments->rays,

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "apps/common_options.hpp"
 #include "apps/machine_options.hpp"
 #include "model/pairing.hpp"
 
@@ -19,22 +20,11 @@ void add_tree_options(CLI::App& run, RunArguments& arguments) {
 }
 
 void add_picture_options(CLI::App& run, RunArguments& arguments, CLI::Option* rays) {
-    const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
-        CLI::Option* option = run.add_option(name, value, help)->type_name(type);
+    for (CLI::Option* option :
+         {add_workloads_option(run, arguments.workloads), add_resolution_option(run, arguments.resolution),
+          add_camera_option(run, arguments.camera), add_seed_option(run, arguments.seed)}) {
         if (rays != nullptr) option->excludes(rays);
-        return option;
-    };
-    add("--workload", arguments.workloads, "rays to trace, of primary, shadow, ao, diffuse, random", "LIST")
-        ->capture_default_str();
-    add("--resolution", arguments.resolution, "picture size in pixels, one primary ray each", "WxH")
-        ->capture_default_str();
-    add("--camera", arguments.camera,
-        "TOML with eye, target, up, tan_half_fov, in a table named like the scene;\n"
-        "without it, or without the scene's table, the camera is automatic",
-        "FILE")
-        ->check(is_not_empty());
-    add("--seed", arguments.seed, "of the random numbers of ao, diffuse and random rays", "N")
-        ->capture_default_str();
+    }
 }
 
 void add_ray_input_options(CLI::App& command, RunArguments& arguments, CLI::Option* rays) {
@@ -87,19 +77,12 @@ void add_fidelity_options(CLI::App& command, RunArguments& arguments) {
         ->check(is_not_empty());
 }
 
-void add_thread_option(CLI::App& run, RunArguments& arguments) {
-    run.add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
-}
-
 void add_host_options(CLI::App& run, RunArguments& arguments) {
     run.add_option("--clock-mode", arguments.clock_mode,
                    "fast, or verify: a clocked process for each unit, same results, slower")
         ->type_name("MODE")
         ->capture_default_str();
-    add_thread_option(run, arguments);
+    add_threads_option(run, arguments.threads);
 }
 
 }  // namespace rtu::apps

@@ -18,8 +18,6 @@ void add_ray_input_options(CLI::App& command, RunArguments& arguments, CLI::Opti
 void add_output_options(CLI::App& command, RunArguments& arguments);
 /// --fidelity and --tolerance.
 void add_fidelity_options(CLI::App& command, RunArguments& arguments);
-/// --threads.
-void add_thread_option(CLI::App& command, RunArguments& arguments);
 /// --clock-mode and --threads.
 void add_host_options(CLI::App& command, RunArguments& arguments);
 

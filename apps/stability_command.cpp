@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -123,10 +123,7 @@ std::string json_of(const study::StabilityReport& report,
 int run_stability_command(const StabilityArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     StabilityPlan plan = make_plan(arguments);
-    std::optional<tbb::global_control> limit;
-    if (arguments.threads > 0) {
-        limit.emplace(tbb::global_control::max_allowed_parallelism, arguments.threads);
-    }
+    const ThreadLimit limit(arguments.threads);
     const study::StabilityReport report = run(plan);
     const std::optional<study::PrecisionReport> precision = judge_precision(plan);
     const std::string answer = precision ? "\n" + study::precision_text(*precision) : std::string();
@@ -148,20 +145,14 @@ void add_options(CLI::App& stability, StabilityArguments& arguments) {
                     "256 triangles, fewer in proportion")
         ->type_name("N")
         ->capture_default_str();
-    stability.add_option("--seed", arguments.seed, "of the random numbers")
-        ->type_name("N")
-        ->capture_default_str();
+    add_seed_option(stability, arguments.seed);
     stability
         .add_option("--scene", arguments.scene,
                     "a glTF file: rays at its triangles, instead of all cases or besides those of --case,\n"
                     "and the cheapest method and number format that is exact enough for its rays")
         ->type_name("FILE")
         ->check(is_not_empty());
-    stability
-        .add_option("--threads", arguments.threads, "host threads at most, 0: all; no effect on results")
-        ->type_name("N")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    add_threads_option(stability, arguments.threads);
     add_report_options(stability, arguments.output);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/progress.hpp"
 #include "apps/report_output.hpp"
@@ -62,12 +63,8 @@ void add_work_options(CLI::App& stream, StreamArguments& arguments) {
     stream.add_option("--workload", arguments.workload, "one of primary, shadow, ao, diffuse, random")
         ->type_name("NAME")
         ->capture_default_str();
-    stream.add_option("--camera", arguments.camera, "TOML with cameras by scene name, as in `rtusim run`")
-        ->type_name("FILE")
-        ->check(is_not_empty());
-    stream.add_option("--seed", arguments.seed, "of the random numbers")
-        ->type_name("N")
-        ->capture_default_str();
+    add_camera_option(stream, arguments.camera);
+    add_seed_option(stream, arguments.seed);
 }
 
 void add_stream_options(CLI::App& stream, StreamArguments& arguments) {

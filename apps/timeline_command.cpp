@@ -1,10 +1,9 @@
 #include "apps/timeline_command.hpp"
 
-#include <tbb/global_control.h>
-
 #include <memory>
 #include <optional>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -57,8 +56,7 @@ int run_timeline(const Arguments& arguments) {
         throw Error("--workload: expected one workload, got '{}'", arguments.run.workloads);
     }
     check_outputs(arguments, plan);
-    std::optional<tbb::global_control> limit;
-    if (plan.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, plan.threads);
+    const ThreadLimit limit(plan.threads);
     study::Timeline timeline;
     {
         Progress progress;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "apps/common_options.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/run_command.hpp"
 #include "apps/run_options.hpp"
@@ -89,7 +90,7 @@ void add_record(CLI::App& trace, std::function<int()>& command) {
     add_picture_options(*app, arguments->run, rays);
     add_ray_input_options(*app, arguments->run, rays);
     add_machine_options(*app, arguments->run.machine);
-    add_thread_option(*app, arguments->run);
+    add_threads_option(*app, arguments->run.threads);
     app->callback([arguments, &command] {
         if (arguments->scene == "-") arguments->scene.clear();
         command = [arguments] { return record_trace(*arguments); };

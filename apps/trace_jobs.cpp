@@ -1,10 +1,10 @@
 #include "apps/trace_jobs.hpp"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <optional>
 
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/option_values.hpp"
 #include "apps/progress.hpp"
@@ -50,8 +50,7 @@ int record_trace(const RecordArguments& arguments) {
     if (!arguments.scene.empty()) run.scenes = {arguments.scene};
     RunPlan plan = make_run_plan(run);
     check_output(arguments.output, plan.inputs);
-    std::optional<tbb::global_control> limit;
-    if (plan.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, plan.threads);
+    const ThreadLimit limit(plan.threads);
     const study::SceneSource& scene = plan.scenes.front();
     std::vector<WorkloadCount> workloads;
     {

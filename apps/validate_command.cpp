@@ -6,11 +6,11 @@
 #include <charconv>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "apps/chart_files.hpp"
+#include "apps/common_options.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/machine_options.hpp"
 #include "apps/option_values.hpp"
@@ -66,8 +66,7 @@ std::string footer() {
 }
 
 void add_options(CLI::App& validate, Arguments& arguments) {
-    validate.add_option("SCENE", arguments.scenes, "glTF 2.0 files (.gltf, .glb); none: the built-in scene")
-        ->type_name("");
+    add_scenes_option(validate, arguments.scenes);
     validate.add_option("--only", arguments.only, "only these machines, see below")
         ->type_name("LIST")
         ->check(is_not_empty());
@@ -83,15 +82,9 @@ void add_options(CLI::App& validate, Arguments& arguments) {
         ->type_name("N")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    validate.add_option("--workload", arguments.workloads, "rays, of primary, shadow, ao, diffuse, random")
-        ->type_name("LIST")
-        ->capture_default_str();
-    validate.add_option("--camera", arguments.camera, "TOML with cameras by scene name, as in `rtusim run`")
-        ->type_name("FILE")
-        ->check(is_not_empty());
-    validate.add_option("--seed", arguments.seed, "of the random numbers of ao, diffuse and random rays")
-        ->type_name("N")
-        ->capture_default_str();
+    add_workloads_option(validate, arguments.workloads);
+    add_camera_option(validate, arguments.camera);
+    add_seed_option(validate, arguments.seed);
     validate
         .add_option("--waves", arguments.waves,
                     "record the RTL's signals in FILE.fst or FILE.vcd: of one scene, workload and machine "
@@ -163,12 +156,7 @@ study::ValidateOptions options_of(const Arguments& arguments) {
     options.seed = parse_seed(arguments.seed);
     options.camera_file = optional_path(arguments.camera);
     check_cameras(options.camera_file, options.scenes);
-    std::set<std::string> names;
-    for (const study::SceneSource& scene : options.scenes) {
-        if (!names.insert(scene.name()).second) {
-            throw Error("two scenes are called '{}', and the report could not tell them apart", scene.name());
-        }
-    }
+    check_scene_names(options.scenes);
     options.reference = study::rtl_reference(parse_waves(arguments, options));
     return options;
 }

@@ -15,6 +15,12 @@ enum class SplitKind : std::uint8_t {
               ///< leaves
 };
 
+/// How Embree chooses a node's children.
+enum class BvhBuilder : std::uint8_t {
+    Sah,     ///< by the surface area heuristic, over bins of the pairs' centres: its medium quality
+    Morton,  ///< by the next bit in which the pairs' places along a Z-shaped curve differ: its low quality
+};
+
 /// Shape of the tree.
 struct BvhOptions {
     std::uint32_t width = 4;           ///< children a node: 2, 4, 6 or 8
@@ -22,10 +28,11 @@ struct BvhOptions {
     NodeFormat node_format = NodeFormat::Full;
     SplitKind splits = SplitKind::Object;
     std::uint32_t split_budget_percent = 20;  ///< leaves that spatial splits may add, in % of the pairs
+    BvhBuilder builder = BvhBuilder::Sah;     ///< spatial splits: Sah, with which they are its high quality
 };
 
-/// Builds a BVH over the pairs with Embree's binned SAH builder, with or without spatial splits, and lays it
-/// out as memory_image.hpp says: a pair that several leaves refer to is stored once. Byte-identical on every
+/// Builds a BVH over the pairs with one of Embree's builders, with or without spatial splits, and lays it out
+/// as memory_image.hpp says: a pair that several leaves refer to is stored once. Byte-identical on every
 /// machine: the builder runs on one thread. Throws Error for no pairs or an image beyond the 16 GiB that a
 /// NodeRef can address.
 [[nodiscard]] MemoryImage build_bvh(const TriangleMesh& mesh, const Pairing& pairing, BvhOptions options);

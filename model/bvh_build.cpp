@@ -104,6 +104,8 @@ MemoryImage build_bvh(const TriangleMesh& mesh, const Pairing& pairing, BvhOptio
               "{} pairs a leaf are not 1 to {}", options.max_leaf_pairs, max_leaf_pairs);
     RTU_CHECK(options.splits == SplitKind::Object || options.max_leaf_pairs == 1,
               "{} pairs a leaf are not 1, as spatial splits need", options.max_leaf_pairs);
+    RTU_CHECK(options.splits == SplitKind::Object || options.builder == BvhBuilder::Sah,
+              "the builder is not the one that can split a pair");
     // A quantised node's leaves lie side by side, so none can be another node's too.
     RTU_CHECK(options.splits == SplitKind::Object || options.node_format == NodeFormat::Full,
               "nodes are quantised, and leaves of spatial splits are shared");

@@ -109,6 +109,11 @@ EmbreeTree::EmbreeTree(const TriangleMesh& mesh, const Pairing& pairing, BvhOpti
     arguments.setNodeBounds = set_bounds;
     arguments.createLeaf = create_leaf;
     arguments.userPtr = &geometry;
+    if (options.builder == BvhBuilder::Morton) {
+        arguments.buildQuality = RTC_BUILD_QUALITY_LOW;
+        // It knows no cost by which a leaf could be better than a node: leaves are as full as may be.
+        arguments.minLeafSize = options.max_leaf_pairs;
+    }
     if (geometry.is_split) {
         arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
         arguments.splitPrimitive = split_primitive;

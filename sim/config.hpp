@@ -22,7 +22,8 @@ enum class MemoryModel : std::uint8_t {
     Flat,  ///< no L2: memory of one latency and one bandwidth, as an RTL testbench has
 };
 
-/// The tree's splits, and a ray's memory of the pairs it was tested with: see model/.
+/// The tree's builder and splits, and a ray's memory of the pairs it was tested with: see model/.
+using model::BvhBuilder;
 using model::MailboxKind;
 using model::SplitKind;
 
@@ -54,6 +55,7 @@ struct Config {
         std::uint32_t width = 4;
         model::NodeFormat node_format = model::NodeFormat::Full;
         std::uint32_t max_leaf_pairs = 1;
+        BvhBuilder builder = BvhBuilder::Sah;
         SplitKind splits = SplitKind::Object;
         std::uint32_t split_budget_percent = 20;
     } bvh;

@@ -68,6 +68,8 @@ void validate(const EffectiveConfig& effective) {
     require(effective,
             config.bvh.splits == SplitKind::Object || config.bvh.node_format == model::NodeFormat::Full,
             "full nodes where leaves share pairs", {"bvh.splits", "bvh.node_format"});
+    require(effective, config.bvh.splits == SplitKind::Object || config.bvh.builder == BvhBuilder::Sah,
+            "the builder that can cut pairs", {"bvh.splits", "bvh.builder"});
     require(effective,
             config.rtu.mailbox.kind != MailboxKind::Hashed || config.rtu.mailbox.entries == 0 ||
                 std::has_single_bit(config.rtu.mailbox.entries),

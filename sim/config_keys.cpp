@@ -55,6 +55,9 @@ const ConfigKey rows[] = {
     {"bvh.node_format", "", "boxes of inner nodes: binary32, or 8-bit steps on a grid of the node", 0, 0,
      Form::Any, "[rtl] reads binary32; products compress, as [YKL17] and [gen-rt]",
      [](Config& c) -> Field { return &c.bvh.node_format; }},
+    {"bvh.builder", "", "how the builder chooses a node's children: least surface, or along a curve", 0, 0,
+     Form::Any, "[Embree] its default, medium quality; morton is its low one",
+     [](Config& c) -> Field { return &c.bvh.builder; }},
     {"bvh.splits", "", "how the builder divides a node's pairs: whole, or also cut by a plane", 0, 0,
      Form::Any, "chosen: every pair in one leaf", [](Config& c) -> Field { return &c.bvh.splits; }},
     {"bvh.split_budget_percent", "%", "leaves that spatial splits may add, of the pairs", 1, 1000, Form::Any,
@@ -189,6 +192,7 @@ constexpr std::array<std::string_view, 3> mode_names{"single", "dual_independent
 constexpr std::array<std::string_view, 2> memory_model_names{"dram", "flat"};
 constexpr std::array<std::string_view, 2> node_format_names{to_string(model::NodeFormat::Full),
                                                             to_string(model::NodeFormat::Quantised)};
+constexpr std::array<std::string_view, 2> builder_names{"sah", "morton"};
 constexpr std::array<std::string_view, 2> split_names{"object", "spatial"};
 constexpr std::array<std::string_view, 3> mailbox_names{"recent", "hashed", "per_pair"};
 
@@ -246,6 +250,7 @@ std::span<const std::string_view> choice_names(const ConfigKey::Field& field) {
     if (std::holds_alternative<PairMode*>(field)) return mode_names;
     if (std::holds_alternative<MemoryModel*>(field)) return memory_model_names;
     if (std::holds_alternative<model::NodeFormat*>(field)) return node_format_names;
+    if (std::holds_alternative<BvhBuilder*>(field)) return builder_names;
     if (std::holds_alternative<SplitKind*>(field)) return split_names;
     if (std::holds_alternative<MailboxKind*>(field)) return mailbox_names;
     return {};

@@ -18,8 +18,8 @@ using ConfigValue = std::variant<std::uint32_t, std::string_view>;
 struct ConfigKey {
     /// What a number must be besides lying in its range.
     enum class Form : std::uint8_t { Any, Even, PowerOfTwo };
-    using Field =
-        std::variant<std::uint32_t*, PairMode*, MemoryModel*, model::NodeFormat*, SplitKind*, MailboxKind*>;
+    using Field = std::variant<std::uint32_t*, PairMode*, MemoryModel*, model::NodeFormat*, BvhBuilder*,
+                               SplitKind*, MailboxKind*>;
 
     std::string_view name;     ///< dotted, as in files and options; equals the member's path in Config
     std::string_view unit;     ///< of the number; empty for a choice

@@ -19,7 +19,8 @@ class SharedMemory {
 
     /// Where RTU `index` sends its requests; to be connected before the machine runs.
     virtual void connect(std::size_t index, Fifo<MemoryRequest>& requests, PushIf<MemoryReply>& replies) = 0;
-    /// Leaves in its cache, if it has one, what a read of `size_bytes` at `address` would, at no cost in cycles.
+    /// Leaves in its cache, if it has one, what a read of `size_bytes` at `address` would, at no cost in
+    /// cycles.
     virtual void warm(std::uint64_t address, std::uint32_t size_bytes) = 0;
     /// Line accesses so far that the L2 had to ask the DRAM for; 0 without an L2.
     [[nodiscard]] virtual std::uint64_t l2_misses() const = 0;

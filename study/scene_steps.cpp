@@ -53,7 +53,7 @@ BuiltScene build_scene(const model::TriangleMesh& mesh, model::PairingMethod met
     const Stopwatch build_watch;
     built.image = model::build_bvh(
         mesh, pairing,
-        {bvh.width, bvh.max_leaf_pairs, bvh.node_format, bvh.splits, bvh.split_budget_percent});
+        {bvh.width, bvh.max_leaf_pairs, bvh.node_format, bvh.splits, bvh.split_budget_percent, bvh.builder});
     const model::MemoryImage& image = built.image;
     built.bvh = {image.width,           std::string(to_string(image.format)),
                  image.node_bytes(),    image.node_count,

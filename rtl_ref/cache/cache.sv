@@ -106,6 +106,37 @@ module cache #(
   end
   assert property (@(posedge clk_i) disable iff (!rst_ni) request_valid_i[1] |-> request_valid_i[0])
   else $error("the second request without the first");
+  assert property (@(posedge clk_i) disable iff (!rst_ni) request_ready_o[1] |-> request_ready_o[0])
+  else $error("the second request is taken before the first");
+  // The second request may have become the first in the next cycle.
+  stream_check #(.Width(AddressBits + $clog2(Tags) + 7)) u_check_request (
+    .clk_i, .rst_ni, .valid_i(request_valid_i[0]), .ready_i(request_ready_o[0]),
+    .data_i({request_address_i[0+:AddressBits], request_sectors_i[3:0], request_tag_i[0+:$clog2(Tags)],
+             request_source_i[1:0], request_is_write_i[0]})
+  );
+  stream_check #(.Width($clog2(Tags) + ReadSectors * 256)) u_check_node (
+    .clk_i, .rst_ni, .valid_i(reply_valid_o[0]), .ready_i(reply_ready_i[0]),
+    .data_i({reply_tag_o[0+:$clog2(Tags)], node_o})
+  );
+  stream_check #(.Width($clog2(Tags) + 512)) u_check_leaf (
+    .clk_i, .rst_ni, .valid_i(reply_valid_o[1]), .ready_i(reply_ready_i[1]),
+    .data_i({reply_tag_o[$clog2(Tags)+:$clog2(Tags)], leaf_o})
+  );
+  stream_check #(.Width($clog2(Tags) + 256)) u_check_block (
+    .clk_i, .rst_ni, .valid_i(reply_valid_o[2]), .ready_i(reply_ready_i[2]),
+    .data_i({reply_tag_o[2*$clog2(Tags)+:$clog2(Tags)], stack_block_o})
+  );
+  stream_check #(.Width(AddressBits + $clog2(Mshrs) + 2)) u_check_memory (
+    .clk_i, .rst_ni, .valid_i(mem_valid_o), .ready_i(mem_ready_i),
+    .data_i({mem_is_write_o, mem_line_o, mem_sectors_o, mem_id_o})
+  );
+  // Data of a write; a read has none.
+  stream_check #(.Width(1024)) u_check_written (
+    .clk_i, .rst_ni, .valid_i(mem_valid_o & mem_is_write_o), .ready_i(mem_ready_i), .data_i(mem_data_o)
+  );
+  stream_check #(.Width($clog2(Mshrs) + 1028)) u_check_fill (
+    .clk_i, .rst_ni, .valid_i(fill_valid_i), .ready_i(fill_ready_o), .data_i({fill_id_i, fill_data_i})
+  );
 `endif
 
 endmodule

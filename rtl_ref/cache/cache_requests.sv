@@ -117,4 +117,11 @@ module cache_requests #(
     end
   end
 
+`ifndef SYNTHESIS
+  assert property (@(posedge clk_i) disable iff (!rst_ni) pops <= count_q)
+  else $error("more requests leave than there are");
+  assert property (@(posedge clk_i) disable iff (!rst_ni) accepted_i != 3'd0 |-> valid_o[2'(accepted_i-3'd1)])
+  else $error("an access is accepted that is none");
+`endif
+
 endmodule

@@ -71,4 +71,9 @@ module memory_requests #(
     end
   end
 
+`ifndef SYNTHESIS
+  assert property (@(posedge clk_i) disable iff (!rst_ni) pushes <= room_o)
+  else $error("more requests than there is room for");
+`endif
+
 endmodule

@@ -79,4 +79,11 @@ module mshr_ids #(
     end
   end
 
+`ifndef SYNTHESIS
+  assert property (@(posedge clk_i) disable iff (!rst_ni) (Bits + 1)'(taken_i) <= free_o)
+  else $error("more MSHRs are taken than are free");
+  assert property (@(posedge clk_i) disable iff (!rst_ni) !fill_i |-> {1'b0, count_q} <= {2'b0, last_mshr_i} + 1'b1)
+  else $error("an MSHR was given back twice");
+`endif
+
 endmodule

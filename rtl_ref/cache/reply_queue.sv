@@ -83,4 +83,11 @@ module reply_queue #(
     end
   end
 
+`ifndef SYNTHESIS
+  assert property (@(posedge clk_i) disable iff (!rst_ni) CountBits'(pushes) <= free)
+  else $error("more replies than there is room for");
+  assert property (@(posedge clk_i) disable iff (!rst_ni) in_channel_q <= {1'b0, last_bank_i, 1'b0} + 4'd2)
+  else $error("more replies in the channel than it holds");
+`endif
+
 endmodule

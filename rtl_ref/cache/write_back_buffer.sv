@@ -83,4 +83,9 @@ module write_back_buffer #(
     end
   end
 
+`ifndef SYNTHESIS
+  assert property (@(posedge clk_i) disable iff (!rst_ni) pushes <= room_o)
+  else $error("more lines than there is room for");
+`endif
+
 endmodule

@@ -16,11 +16,18 @@ module stream_check #(
     if (!rst_ni) waits_q <= 1'b0;
     else waits_q <= valid_i & ~ready_i;
   end
-  always_ff @(posedge clk_i) data_q <= data_i;
+  always_ff @(posedge clk_i) begin
+    if (valid_i & ~ready_i) data_q <= data_i;
+  end
 
-  assert property (@(posedge clk_i) disable iff (!rst_ni) waits_q |-> valid_i)
-  else $error("valid was withdrawn");
-  assert property (@(posedge clk_i) disable iff (!rst_ni) waits_q |-> data_i == data_q)
-  else $error("data changed while waiting");
+  // Not concurrent assertions: Verilator would copy all of data_i in every cycle, to sample it.
+  always_ff @(posedge clk_i) begin
+    if (rst_ni & waits_q) begin
+      assert (valid_i)
+      else $error("valid was withdrawn");
+      assert (data_i == data_q)
+      else $error("data changed while waiting");
+    end
+  end
 
 endmodule

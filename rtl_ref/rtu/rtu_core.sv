@@ -135,4 +135,37 @@ module rtu_core #(
     .hit_o(pair_hit)
   );
 
+`ifndef SYNTHESIS
+  stream_check #(.Width(RayBits)) u_check_ray (
+    .clk_i, .rst_ni, .valid_i(ray_valid_i), .ready_i(ray_ready_o),
+    .data_i({ray_tag_i, ray_can_hit_i, ray_any_hit_i, ray_origin_i, ray_direction_i, ray_origin_near_i,
+             ray_origin_far_i, ray_inv_direction_i, ray_entry_side_i, ray_kz_i, ray_shear_x_i, ray_shear_y_i,
+             ray_t_min_i, ray_t_max_i})
+  );
+  // The second hit, too, stays at its place until the first leaves.
+  stream_check #(.Width(TagWidth + 1 + HitBits)) u_check_hit (
+    .clk_i, .rst_ni, .valid_i(hit_valid_o[0]), .ready_i(hit_ready_i[0]),
+    .data_i({hit_tag_o[0+:TagWidth], hit_found_o[0], hit_o[0+:HitBits]})
+  );
+  stream_check #(.Width(TagWidth + 1 + HitBits)) u_check_second_hit (
+    .clk_i, .rst_ni, .valid_i(hit_valid_o[1]), .ready_i(hit_ready_i[0]),
+    .data_i({hit_tag_o[TagWidth+:TagWidth], hit_found_o[1], hit_o[HitBits+:HitBits]})
+  );
+  stream_check #(.Width(SlotWidth + 4 + 64 * Width)) u_check_box (
+    .clk_i, .rst_ni, .valid_i(box_valid), .ready_i(box_ready), .data_i({box_slot, box_met, box_entries})
+  );
+  stream_check #(.Width(SlotWidth + 1 + HitBits)) u_check_pair (
+    .clk_i, .rst_ni, .valid_i(pair_valid), .ready_i(pair_ready), .data_i({pair_slot, pair_found, pair_hit})
+  );
+  assert property (@(posedge clk_i) disable iff (!rst_ni) hit_ready_i[1] |-> hit_ready_i[0])
+  else $error("the second hit is taken before the first");
+  assert property (@(posedge clk_i) disable iff (!rst_ni)
+                   ray_valid_i |-> stack_entries_i >= 5'd1 && 32'(stack_entries_i) <= StackEntries)
+  else $error("a stack of no entry, or of more than there are");
+  assert property (@(posedge clk_i) disable iff (!rst_ni) ray_valid_i |-> 32'(mailbox_entries_i) <= MailboxEntries)
+  else $error("a mailbox of more entries than there are");
+  assert property (@(posedge clk_i) disable iff (!rst_ni) ray_valid_i |-> ray_kz_i <= 2'd2)
+  else $error("kz is no axis");
+`endif
+
 endmodule

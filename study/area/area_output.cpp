@@ -9,6 +9,7 @@
 #include "study/area/area_tables.hpp"
 #include "study/chart/html_page.hpp"
 #include "study/csv.hpp"
+#include "study/json_output.hpp"
 
 namespace rtu::study {
 namespace {
@@ -136,8 +137,7 @@ std::string area_json(const AreaReport& report) {
     for (const MachineArea& preset : report.presets) document["presets"].push_back(json(preset));
     for (const ModeArea& mode : report.modes) document["modes"].push_back(json(mode));
     for (const AreaRow& row : report.rows) document["rows"].push_back(json(row));
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 std::string area_csv(const AreaReport& report) {

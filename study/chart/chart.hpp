@@ -22,6 +22,7 @@ struct ChartSeries {
     std::size_t colour = 0;
     /// [points.size()] or empty: the least and the greatest y of each point, drawn as a thin bar.
     std::vector<std::pair<double, double>> spans = {};
+    bool has_line = true;  ///< lines: from point to point; false for places that do not follow each other
 };
 
 /// A chart of lines or, when there are groups, of bars. Text may hold anything; control characters are shown

@@ -55,7 +55,7 @@ std::string style(const Chart& chart, const ChartSeries& series) {
         return fmt::format("with lines dashtype {} linewidth 1.5 linecolor rgb '{}'",
                            dash_of_level(chart, series), colour);
     }
-    if (!chart.has_lines) {
+    if (!chart.has_lines || !series.has_line) {
         return fmt::format("with points pointtype {} pointsize 0.9 linecolor rgb '{}'",
                            point_types[series.colour % point_types.size()], colour);
     }

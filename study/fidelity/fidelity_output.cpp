@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/csv.hpp"
+#include "study/json_output.hpp"
 
 namespace rtu::study {
 namespace {
@@ -38,11 +39,6 @@ Json json(std::span<const FidelityRow> rows) {
     return array;
 }
 
-std::string written(const Json& document) {
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 std::string cell(std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : ""; }
 
 }  // namespace
@@ -57,7 +53,7 @@ std::string fidelity_json(const FidelityReport& report) {
                             {"kendall_tau", ranking.tau},
                             {"host_seconds", ranking.host_seconds}});
     }
-    return written(
+    return json_text(
         {{"version", report.version},
          {"resolution", {{"width", report.resolution.width}, {"height", report.resolution.height}}},
          {"seed", report.seed},
@@ -66,7 +62,7 @@ std::string fidelity_json(const FidelityReport& report) {
          {"rankings", rankings}});
 }
 
-std::string estimates_json(std::span<const FidelityRow> rows) { return written({{"rows", json(rows)}}); }
+std::string estimates_json(std::span<const FidelityRow> rows) { return json_text({{"rows", json(rows)}}); }
 
 std::string rows_csv(std::span<const FidelityRow> rows) {
     std::string out =

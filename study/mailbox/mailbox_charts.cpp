@@ -55,16 +55,48 @@ ChartPanels panels(const MailboxReport& report, const std::string& scene, std::s
     return all;
 }
 
+// Of the tests of the tree with splits, those that the mailbox saves.
+ChartPanels saved_panels(const MailboxReport& report, const std::string& scene) {
+    ChartPanels all = panels(report, scene, "saved", "pair tests saved, %", [](const MailboxRow& row) {
+        const std::uint64_t without = row.pair_tests + row.mailbox_hits;
+        return without > 0 ? 100 * double(row.mailbox_hits) / double(without) : 0;
+    });
+    for (Chart& chart : all.panels) {
+        std::erase_if(chart.series, [](const ChartSeries& series) { return series.level.has_value(); });
+        chart.has_zero_line = true;
+    }
+    return all;
+}
+
+// Of one machine, whatever the scene.
+Chart gates_chart(const MailboxReport& report) {
+    Chart chart;
+    chart.name = "mailbox_gates";
+    chart.title = "Gates that a mailbox of the last pairs adds";
+    chart.x_label = "entries of the mailbox";
+    chart.y_label = "gates";
+    chart.has_zero_line = true;
+    ChartSeries series{.name = "gates", .points = {{0, 0}}, .level = {}, .marks = {}};
+    for (const MailboxCost& cost : mailbox_costs(report)) {
+        if (cost.mailbox.kind == model::MailboxKind::Recent) {
+            series.points.emplace_back(cost.mailbox.entries, cost.gates);
+        }
+    }
+    chart.series.push_back(std::move(series));
+    return chart;
+}
+
 }  // namespace
 
 std::vector<AnyChart> mailbox_charts(const MailboxReport& report) {
-    std::vector<AnyChart> charts;
+    std::vector<AnyChart> charts{gates_chart(report)};
     for (const std::string& scene : values_of(report, &MailboxRow::scene)) {
         charts.emplace_back(panels(report, scene, "tests", "pair tests a ray", [](const MailboxRow& row) {
             return row.rays > 0 ? double(row.pair_tests) / double(row.rays) : 0;
         }));
         charts.emplace_back(
             panels(report, scene, "mrps", "MRPS", [](const MailboxRow& row) { return row.mrps; }));
+        charts.emplace_back(saved_panels(report, scene));
         charts.emplace_back(panels(report, scene, "per_gate", "MRPS per million gates",
                                    [](const MailboxRow& row) { return row.mrps / (row.gates / 1e6); }));
     }

@@ -5,8 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/config_keys.hpp"
-#include "study/csv.hpp"
+#include "study/json_output.hpp"
 #include "study/mailbox/mailbox_summary.hpp"
+#include "study/mailbox/mailbox_tables.hpp"
 #include "study/text_table.hpp"
 
 namespace rtu::study {
@@ -21,6 +22,28 @@ std::string_view name_of(SplitKind splits) { return splits == SplitKind::Spatial
 std::string_view name_of(model::MailboxKind kind) {
     model::MailboxKind any = kind;
     return sim::choice_names(&any)[std::size_t(kind)];
+}
+
+Json json(const TreeWorth& worth) {
+    return {{"scene", worth.scene},
+            {"workload", worth.workload},
+            {"pairing", worth.pairing},
+            {"pairing_alone_percent", worth.pairing_alone},
+            {"splits_alone_percent", worth.splits_alone},
+            {"pairing_with_splits_percent", worth.pairing_with_splits},
+            {"splits_with_pairing_percent", worth.splits_with_pairing},
+            {"both_percent", worth.both}};
+}
+
+Json json(const MailboxCost& cost) {
+    return {{"mailbox", name_of(cost.mailbox.kind)},
+            {"entries", cost.mailbox.entries},
+            {"found", cost.found},
+            {"duplicates", cost.duplicates},
+            {"gates_added", cost.gates},
+            {"sram_bits_added", cost.sram_bits},
+            {"least_mrps_percent", cost.least_mrps_percent},
+            {"most_mrps_percent", cost.most_mrps_percent}};
 }
 
 Json json(const MailboxRow& row) {
@@ -47,8 +70,6 @@ Json json(const MailboxRow& row) {
             {"gates", row.gates},
             {"sram_bits", row.sram_bits}};
 }
-
-std::string cell(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 std::string answer(const MailboxReport& report, const std::string& scene) {
     const MailboxWorth worth = worth_in(report, scene);
@@ -100,37 +121,31 @@ std::string mailbox_text(const MailboxReport& report) {
                     report.version, report.seed, report.clock_mhz, report.split_budget_percent);
     const std::vector<std::string> scenes = values_of(report, &MailboxRow::scene);
     for (const std::string& scene : scenes) out += answer(report, scene);
+    out += tree_worth_table(report) + tree_table(report) + mailbox_mrps_table(report) +
+           mailbox_cost_table(report);
     for (const std::string& scene : scenes) {
         for (const std::string& workload : values_of(report, &MailboxRow::workload)) {
             out += table(report, scene, workload);
         }
     }
-    return out + "Gates of a mailbox are from a formula, all others as `rtusim area` has them.\n";
+    return out + "Gates and SRAM are those of all RTUs, as `rtusim area` has them.\n";
 }
 
 std::string mailbox_json(const MailboxReport& report) {
-    Json document{{"version", report.version},
-                  {"seed", report.seed},
-                  {"clock_mhz", report.clock_mhz},
-                  {"split_budget_percent", report.split_budget_percent},
+    Json document{{"version", report.version},     {"seed", report.seed},
+                  {"clock_mhz", report.clock_mhz}, {"split_budget_percent", report.split_budget_percent},
+                  {"worth", Json::array()},        {"mailboxes", Json::array()},
                   {"rows", Json::array()}};
+    for (const TreeWorth& worth : tree_worths(report)) document["worth"].push_back(json(worth));
+    for (const MailboxCost& cost : mailbox_costs(report)) document["mailboxes"].push_back(json(cost));
     for (const MailboxRow& row : report.rows) document["rows"].push_back(json(row));
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 std::string mailbox_csv(const MailboxReport& report) {
-    std::vector<std::string> header;
-    const Json keys = json(MailboxRow{});
-    for (const auto& [key, value] : keys.items()) header.push_back(key);
-    std::string out = csv_line(header);
-    for (const MailboxRow& row : report.rows) {
-        std::vector<std::string> cells;
-        const Json values = json(row);
-        for (const auto& [key, value] : values.items()) cells.push_back(cell(value));
-        out += csv_line(cells);
-    }
-    return out;
+    std::vector<Json> rows;
+    for (const MailboxRow& row : report.rows) rows.push_back(json(row));
+    return json_rows_csv(json(MailboxRow{}), rows);
 }
 
 }  // namespace rtu::study

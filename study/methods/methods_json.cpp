@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/methods/operation_counts.hpp"
-#include "study/csv.hpp"
+#include "study/json_output.hpp"
 #include "study/methods/methods_text.hpp"
 
 namespace rtu::study {
@@ -122,11 +122,6 @@ Json published_json() {
             {"rows", array}};
 }
 
-std::string csv_cell(const Json& value) {
-    if (value.is_null()) return "";
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
 }  // namespace
 
 std::string methods_json(const MethodsReport& report) {
@@ -140,23 +135,13 @@ std::string methods_json(const MethodsReport& report) {
     document["early_exits"] = early_exits_json(report);
     document["scaling"] = scaling_json(report);
     document["published"] = published_json();
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 std::string methods_csv(const MethodsReport& report) {
-    std::string text;
-    for (const MethodsRow& row : report.rows) {
-        std::vector<std::string> names, cells;
-        const Json values = row_json(report, row);
-        for (const auto& [name, value] : values.items()) {
-            names.push_back(name);
-            cells.push_back(csv_cell(value));
-        }
-        if (text.empty()) text = csv_line(names);
-        text += csv_line(cells);
-    }
-    return text;
+    std::vector<Json> rows;
+    for (const MethodsRow& row : report.rows) rows.push_back(row_json(report, row));
+    return rows.empty() ? "" : json_rows_csv(rows.front(), rows);
 }
 
 }  // namespace rtu::study

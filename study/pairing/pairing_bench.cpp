@@ -42,8 +42,8 @@ void PairingBench::turn(const RotationDegrees& rotation) {
 
 PairingBench::TreeKey PairingBench::tree_key(model::PairingMethod method, const PairingSetting& setting) {
     const sim::Config::Bvh& bvh = setting.config.bvh;
-    return {to_string(method), setting.rotation,        bvh.width, bvh.max_leaf_pairs, bvh.node_format,
-            bvh.splits,        bvh.split_budget_percent};
+    return {to_string(method), setting.rotation,         bvh.width,  bvh.max_leaf_pairs, bvh.node_format,
+            bvh.splits,        bvh.split_budget_percent, bvh.builder};
 }
 
 const BuiltScene& PairingBench::build(model::PairingMethod method, const PairingSetting& setting) {

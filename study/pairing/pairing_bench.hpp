@@ -40,7 +40,7 @@ class PairingBench {
 
   private:
     using TreeKey = std::tuple<std::string, RotationDegrees, std::uint32_t, std::uint32_t, model::NodeFormat,
-                               sim::SplitKind, std::uint32_t>;
+                               sim::SplitKind, std::uint32_t, sim::BvhBuilder>;
     using RunKey = std::tuple<TreeKey, model::WorkloadKind, std::string>;
     using TreeFacts = std::pair<PairingFacts, BvhFacts>;
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "study/json_output.hpp"
 #include "study/pairing/pairing_study.hpp"
 
 namespace rtu::study {
@@ -140,8 +141,7 @@ std::string pairing_json(const PairingReport& report) {
     document["average"] = document["averages"].front();  // of the first method
     document["studies"] = Json::array();
     for (const PairingStudyTable& study : report.studies) document["studies"].push_back(json(study));
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 }  // namespace rtu::study

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "study/csv.hpp"
+#include "study/json_output.hpp"
 #include "study/precision/precision_tables.hpp"
 
 namespace rtu::study {
@@ -65,11 +65,6 @@ Json answer(const PrecisionReport& report, const PrecisionAnswer& scene) {
         {"watertight_row", scene.watertight_row ? json(report.rows[*scene.watertight_row]) : Json(nullptr)}};
 }
 
-std::string cell(const Json& value) {
-    if (value.is_null()) return "";
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
 }  // namespace
 
 std::string precision_text(const PrecisionReport& report) {
@@ -99,22 +94,13 @@ std::string precision_json(const PrecisionReport& report) {
     for (const PrecisionAnswer& scene : report.scenes) document["answers"].push_back(answer(report, scene));
     for (const PrecisionRow& row : report.rows) document["rows"].push_back(json(row));
     for (const FilterRow& row : report.filters) document["filters"].push_back(json(row));
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 std::string precision_csv(const PrecisionReport& report) {
-    std::vector<std::string> header;
-    const Json keys = json(PrecisionRow{});
-    for (const auto& [key, value] : keys.items()) header.push_back(key);
-    std::string out = csv_line(header);
-    for (const PrecisionRow& row : report.rows) {
-        std::vector<std::string> cells;
-        const Json values = json(row);
-        for (const auto& [key, value] : values.items()) cells.push_back(cell(value));
-        out += csv_line(cells);
-    }
-    return out;
+    std::vector<Json> rows;
+    for (const PrecisionRow& row : report.rows) rows.push_back(json(row));
+    return json_rows_csv(json(PrecisionRow{}), rows);
 }
 
 }  // namespace rtu::study

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "study/json_output.hpp"
+
 namespace rtu::study {
 namespace {
 
@@ -150,8 +152,7 @@ std::string json_report(std::span<const SceneReport> reports) {
     Json document = Json::array();
     for (const SceneReport& report : reports) document.push_back(json(report));
     if (document.size() == 1) document = Json(document.front());
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 }  // namespace rtu::study

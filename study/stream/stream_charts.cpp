@@ -25,6 +25,7 @@ std::vector<std::pair<double, double>> points_of(const StreamReport& report, con
 ChartSeries balance_series(const StreamReport& report, const std::string& mode) {
     ChartSeries series;
     series.name = "balance";
+    series.has_line = false;
     for (const StreamBalance& balance : report.balances) {
         if (balance.mode != mode || !balance.batch_tests) continue;
         for (const StreamRow& row : report.rows) {

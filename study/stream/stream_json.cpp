@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/csv.hpp"
+#include "study/json_output.hpp"
 #include "study/stream/stream_output.hpp"
 
 namespace rtu::study {
@@ -13,7 +14,6 @@ using Json = nlohmann::ordered_json;
 // What is one number or word of a row, for JSON and CSV alike.
 Json plain_values(const StreamRow& row) {
     const sim::StreamResult& result = row.result;
-    const double mrps = double(row.ray_count) / double(result.cycles) * row.clock_mhz;
     return {{"mode", row.mode},
             {"link", row.link},
             {"read_back", row.read_back},
@@ -26,9 +26,10 @@ Json plain_values(const StreamRow& row) {
             {"cycles", result.cycles},
             {"clock_mhz", row.clock_mhz},
             {"tests_per_second", row.tests_per_second()},
-            {"mrps", mrps},
+            {"mrps", row.mrps()},
             {"alone_cycles", row.alone_cycles},
             {"alone_tests_per_second", row.alone_tests_per_second()},
+            {"alone_mrps", row.alone_mrps()},
             {"machine_cycles", result.time.machine_cycles},
             {"read_back_cycles", result.time.read_back_cycles},
             {"upload_cycles", result.time.upload_cycles},
@@ -70,8 +71,6 @@ Json json(const PublishedStream& stream) {
             {"row", json(stream.row)}};
 }
 
-std::string cell(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
-
 // Counters of the last two units: the host has only its number of batches.
 std::vector<std::string> counter_cells(const StreamRow& row, bool is_header) {
     std::vector<std::string> cells;
@@ -103,8 +102,7 @@ std::string stream_json(const StreamReport& report) {
     for (const StreamRow& row : report.rows) document["rows"].push_back(json(row));
     for (const StreamBalance& balance : report.balances) document["balances"].push_back(json(balance));
     for (const PublishedStream& stream : report.published) document["published"].push_back(json(stream));
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 std::string stream_csv(const StreamReport& report) {
@@ -115,7 +113,7 @@ std::string stream_csv(const StreamReport& report) {
         const Json values = plain_values(row);
         for (const auto& [key, value] : values.items()) {
             header.push_back(key);
-            cells.push_back(cell(value));
+            cells.push_back(csv_cell(value));
         }
         for (auto& name : counter_cells(row, true)) header.push_back(std::move(name));
         for (auto& value : counter_cells(row, false)) cells.push_back(std::move(value));

@@ -84,6 +84,8 @@ double StreamRow::tests_per_second() const {
 double StreamRow::alone_tests_per_second() const {
     return double(result.tests.triangle_tests) / double(alone_cycles) * clock_mhz * 1e6;
 }
+double StreamRow::mrps() const { return double(ray_count) / double(result.cycles) * clock_mhz; }
+double StreamRow::alone_mrps() const { return double(ray_count) / double(alone_cycles) * clock_mhz; }
 double StreamRow::tester_percent() const {
     return 100.0 * double(result.tests.tester_cycles) / (double(result.cycles) * double(tester_count));
 }

@@ -60,6 +60,9 @@ struct StreamRow {
     /// Tests of single triangles.
     [[nodiscard]] double tests_per_second() const;
     [[nodiscard]] double alone_tests_per_second() const;
+    /// Million rays that met all pairs, a second; of the same batches over a link that costs nothing.
+    [[nodiscard]] double mrps() const;
+    [[nodiscard]] double alone_mrps() const;
     [[nodiscard]] double tester_percent() const;
     /// The part in use the longest: testers, upload, read-back or host.
     [[nodiscard]] std::string_view limit() const;

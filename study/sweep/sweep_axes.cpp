@@ -128,13 +128,23 @@ std::vector<ConfigAssignment> values_of(const TomlReader& reader, const KeyNode&
         throw Error("{}: {}: expected 1 to {} values, got {}", key.place, key.name, most_values,
                     values.empty() ? "none" : "more");
     }
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    return values;
+}
+
+bool is_same(const std::vector<ConfigAssignment>& a, const std::vector<ConfigAssignment>& b) {
+    return std::ranges::equal(a, b, {}, &ConfigAssignment::value, &ConfigAssignment::value);
+}
+
+// Linked keys may have a value twice, but not beside the same others.
+void check_settings_once(const SweepAxis& axis) {
+    for (std::size_t i = 0; i < axis.settings.size(); ++i) {
+        const std::vector<ConfigAssignment>& setting = axis.settings[i];
         for (std::size_t j = 0; j < std::min(i, std::size_t{1000}); ++j) {
-            if (values[i].value != values[j].value) continue;
-            throw Error("{}: {}: expected every value once", values[i].place, key.name);
+            if (!is_same(setting, axis.settings[j])) continue;
+            throw Error("{}: {}: expected every {} once", setting.front().place, setting.front().key,
+                        setting.size() == 1 ? "value" : "combination of linked values");
         }
     }
-    return values;
 }
 
 }  // namespace
@@ -153,6 +163,7 @@ std::vector<SweepAxis> parse_axes(const TomlReader& reader, const toml::table& t
         SweepAxis& axis = axes.emplace_back();
         axis.place = key.place;
         for (ConfigAssignment& value : values_of(reader, key)) axis.settings.push_back({std::move(value)});
+        check_settings_once(axis);
     }
     return axes;
 }
@@ -170,6 +181,7 @@ SweepAxis parse_linked_axis(const TomlReader& reader, const toml::table& table) 
         for (std::size_t i = 0; i < values.size(); ++i) axis.settings[i].push_back(std::move(values[i]));
     }
     if (axis.settings.empty()) throw Error("{}: expected keys that change together, got none", axis.place);
+    check_settings_once(axis);
     return axis;
 }
 

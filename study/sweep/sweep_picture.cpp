@@ -80,10 +80,15 @@ ChartSeries series_of(std::span<const SweepFigure> figures, const std::string& p
     return sorted;
 }
 
+// A key's value alone would be a bare number; what else there is speaks for itself.
+std::string panel_title(const std::string& column, const std::string& value) {
+    return column.find('.') == std::string::npos ? value : fmt::format("{} = {}", column, value);
+}
+
 Chart panel_of(const SweepChart& chart, std::span<const SweepFigure> figures, const std::string& panel) {
     Chart result;
     result.name = chart.name;
-    result.title = panel.empty() ? title_of(chart) : panel;
+    result.title = panel.empty() ? title_of(chart) : panel_title(chart.panels, panel);
     result.x_label = chart.x;
     result.y_label = y_label(chart);
     result.is_x_logarithmic = chart.is_x_logarithmic;

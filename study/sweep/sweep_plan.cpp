@@ -58,6 +58,7 @@ std::string tree_text(const sim::Config::Bvh& bvh) {
     if (bvh.splits == sim::SplitKind::Spatial) {
         text += fmt::format(" spatial {}", bvh.split_budget_percent);
     }
+    if (bvh.builder == sim::BvhBuilder::Morton) text += " morton";
     return text;
 }
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/chart/html_page.hpp"
-#include "study/csv.hpp"
+#include "study/json_output.hpp"
 #include "study/report/run_report.hpp"
 
 namespace rtu::study {
@@ -38,8 +38,6 @@ Json json(const std::optional<ValidateDifference>& difference) {
             {"ray", difference->ray ? Json(*difference->ray) : Json(nullptr)},
             {"what", difference->what}};
 }
-
-std::string cell(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 std::string heading(const ValidateReport& report) {
     const std::string changes =
@@ -80,22 +78,13 @@ std::string validate_json(const ValidateReport& report) {
         document["configs"].push_back({{"name", config.name}, {"sets", config.sets}});
     }
     for (const ValidateRow& row : report.rows) document["rows"].push_back(json(row));
-    // A scene's name is a file's name, and that need not be UTF-8.
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document);
 }
 
 std::string validate_csv(const ValidateReport& report) {
-    std::vector<std::string> header;
-    const Json keys = json(ValidateRow{});
-    for (const auto& [key, value] : keys.items()) header.push_back(key);
-    std::string out = csv_line(header);
-    for (const ValidateRow& row : report.rows) {
-        std::vector<std::string> cells;
-        const Json values = json(row);
-        for (const auto& [key, value] : values.items()) cells.push_back(cell(value));
-        out += csv_line(cells);
-    }
-    return out;
+    std::vector<Json> rows;
+    for (const ValidateRow& row : report.rows) rows.push_back(json(row));
+    return json_rows_csv(json(ValidateRow{}), rows);
 }
 
 std::string validate_html(const ValidateReport& report) {

@@ -83,6 +83,70 @@ TEST_F(MailboxCommand, HasARowForEachTreeWorkloadAndMailbox) {
     EXPECT_GT(many_entries["gates"], none["gates"]);
 }
 
+// The sums over trees are those of the rows, and the gates what `rtusim area` says.
+TEST_F(MailboxCommand, SumsUpWhatEachMailboxFindsAndTakes) {
+    const ProcessResult result = run(small({"--workload", "primary,shadow", "--json", "-"}));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Json report = Json::parse(result.out);
+    const auto area = [&](const std::vector<std::string>& sets) {
+        std::vector<std::string> command{"area", "--json", "-"};
+        for (const std::string& set : sets) command.insert(command.end(), {"--set", set});
+        return Json::parse(run(command).out)["machine"]["rtu"];
+    };
+    const Json plain = area({});
+    ASSERT_EQ(report["mailboxes"].size(), 4U);
+    for (const Json& mailbox : report["mailboxes"]) {
+        std::uint64_t found = 0, duplicates = 0;
+        for (const Json& row : report["rows"]) {
+            if (row["splits"] != "spatial") continue;
+            if (row["mailbox"] == "none") duplicates += row["duplicate_tests"].get<std::uint64_t>();
+            if (row["mailbox"] == mailbox["mailbox"] && row["entries"] == mailbox["entries"]) {
+                found += row["mailbox_hits"].get<std::uint64_t>();
+            }
+        }
+        EXPECT_GT(found, 0U);
+        EXPECT_EQ(mailbox["found"], found);
+        EXPECT_EQ(mailbox["duplicates"], duplicates);
+        const Json with = area({"rtu.mailbox.kind=" + mailbox["mailbox"].get<std::string>(),
+                                "rtu.mailbox.entries=" + std::to_string(mailbox["entries"].get<int>())});
+        EXPECT_NEAR(mailbox["gates_added"].get<double>(),
+                    with["gates"].get<double>() - plain["gates"].get<double>(), 0.1);
+        EXPECT_NEAR(mailbox["sram_bits_added"].get<double>(),
+                    with["sram_bits"].get<double>() - plain["sram_bits"].get<double>(), 0.1);
+        EXPECT_LE(mailbox["least_mrps_percent"], mailbox["most_mrps_percent"]);
+    }
+}
+
+TEST_F(MailboxCommand, TellsWhatPairingAndSplitsAreWorthToEachKindOfRays) {
+    const ProcessResult result =
+        run({"mailbox", "needles.glb", "--resolution", "24x24", "--pairings", "none,window:2", "--entries",
+             "1", "--workload", "primary,shadow", "--json", "-"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Json report = Json::parse(result.out);
+    const auto cycles = [&](const char* workload, const char* pairing, const char* splits) {
+        for (const Json& row : report["rows"]) {
+            if (row["workload"] == workload && row["pairing"] == pairing && row["splits"] == splits &&
+                row["mailbox"] == "none") {
+                return row["cycles"].get<double>();
+            }
+        }
+        return 0.0;
+    };
+    ASSERT_EQ(report["worth"].size(), 3U);
+    const auto gain = [](double before, double after) { return 100 * (before / after - 1); };
+    const Json shadow = report["worth"][1];
+    EXPECT_EQ(shadow["workload"], "shadow");
+    const double neither = cycles("shadow", "none", "object"), split = cycles("shadow", "none", "spatial");
+    const double paired = cycles("shadow", "window:2", "object");
+    const double both = cycles("shadow", "window:2", "spatial");
+    EXPECT_NEAR(shadow["pairing_alone_percent"].get<double>(), gain(neither, paired), 1e-9);
+    EXPECT_NEAR(shadow["splits_alone_percent"].get<double>(), gain(neither, split), 1e-9);
+    EXPECT_NEAR(shadow["pairing_with_splits_percent"].get<double>(), gain(split, both), 1e-9);
+    EXPECT_NEAR(shadow["splits_with_pairing_percent"].get<double>(), gain(paired, both), 1e-9);
+    EXPECT_NEAR(shadow["both_percent"].get<double>(), gain(neither, both), 1e-9);
+    EXPECT_EQ(report["worth"][2]["workload"], "all");
+}
+
 TEST_F(MailboxCommand, WritesPictures) {
     if (std::system("gnuplot --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot here";
     const ProcessResult result = run(small({"--workload", "primary", "--charts", "pictures"}));

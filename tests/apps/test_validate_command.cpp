@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/command_line.hpp"
@@ -75,6 +76,21 @@ TEST_F(Waves, HoldTheWindowThatIsAskedFor) {
     EXPECT_THAT(vcd.signals, testing::IsSupersetOf({"rtu.hit_valid_o", "rtu.rtu.u_core.u_scheduler.ends",
                                                     "rtu.rtu.u_cache.u_control.request_valid_i"}));
     EXPECT_THAT(names(), testing::UnorderedElementsAre("ball.glb", "rtu.vcd"));
+}
+
+// A file beside it that has a name in FST's way stays what it is, and so does an earlier recording when there
+// is no new one.
+TEST_F(Waves, OverwriteNothingElse) {
+    const auto write = [&](const char* name) { std::ofstream(folder_.path() / name) << "mine"; };
+    for (const char* const name : {"rtu.vcd.fst", "rtu.vcd.hier", "old.fst"}) write(name);
+    const ProcessResult result = record("rtu.vcd", "100:101");
+    if (is_without_rtl(result)) GTEST_SKIP() << result.err;
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(record("old.fst", "900000:900001").exit_code, 1);
+    for (const char* const name : {"rtu.vcd.fst", "rtu.vcd.hier", "old.fst"})
+        EXPECT_EQ(content(name), "mine");
+    EXPECT_THAT(names(), testing::UnorderedElementsAre("ball.glb", "rtu.vcd", "rtu.vcd.fst", "rtu.vcd.hier",
+                                                       "old.fst"));
 }
 
 // Every ray comes back once, as a reader of its own sees it.

@@ -1,15 +1,21 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 #include "meshes.hpp"
 #include "model/bvh.hpp"
 #include "model/error.hpp"
+#include "model/traversal.hpp"
 
 namespace rtu::model {
 namespace {
 
 using test::image_of;
+
+BvhOptions morton(std::uint32_t width, std::uint32_t max_leaf_pairs) {
+    return {.width = width, .max_leaf_pairs = max_leaf_pairs, .builder = BvhBuilder::Morton};
+}
 
 class Shape : public testing::TestWithParam<BvhOptions> {};
 
@@ -34,13 +40,46 @@ TEST_P(Shape, SurvivesManyTrianglesInOnePlace) {
 
 INSTANTIATE_TEST_SUITE_P(AllWidths, Shape,
                          testing::Values(BvhOptions{2, 1}, BvhOptions{4, 1}, BvhOptions{6, 1},
-                                         BvhOptions{8, 1}, BvhOptions{4, 3}, BvhOptions{8, 8}));
+                                         BvhOptions{8, 1}, BvhOptions{4, 3}, BvhOptions{8, 8}, morton(2, 1),
+                                         morton(4, 1), morton(6, 1), morton(8, 1), morton(4, 3),
+                                         morton(8, 8)));
 
 TEST(Bvh, IsByteIdenticalWhenBuiltTwice) {
-    const TriangleMesh mesh = test::triangle_soup(2'000, 5, 0.1F);
-    const MemoryImage a = image_of(mesh), b = image_of(mesh);
-    ASSERT_EQ(a.size_bytes(), b.size_bytes());
-    EXPECT_EQ(std::memcmp(a.blocks.data(), b.blocks.data(), a.size_bytes()), 0);
+    const TriangleMesh mesh = test::triangle_soup(20'000, 5, 0.1F);
+    for (const BvhOptions& options : {BvhOptions{}, morton(4, 1)}) {
+        const MemoryImage a = image_of(mesh, options), b = image_of(mesh, options);
+        ASSERT_EQ(a.size_bytes(), b.size_bytes());
+        EXPECT_EQ(std::memcmp(a.blocks.data(), b.blocks.data(), a.size_bytes()), 0);
+    }
+}
+
+// Its boxes have more surface, which is what it does not look at; what is hit is the same.
+TEST(Bvh, OfMortonCodesTakesMoreBoxTestsForTheSameHits) {
+    // Triangles of every size: where a large one goes is what the heuristic is for.
+    TriangleMesh mesh = test::triangle_soup(3'000, 9, 0.01F);
+    const TriangleMesh large = test::triangle_soup(60, 11, 1.0F);
+    for (const Triangle& t : large.triangles) {
+        const auto begin = std::uint32_t(mesh.positions.size());
+        for (const std::uint32_t corner : t) mesh.positions.push_back(large.positions[corner]);
+        mesh.triangles.push_back({begin, begin + 1, begin + 2});
+    }
+    const MemoryImage sah = image_of(mesh), morton_image = image_of(mesh, morton(4, 1));
+    EXPECT_EQ(morton_image.leaf_count, morton_image.pair_count);
+    TraversalCounts by_sah, by_morton;
+    test::Random random(10);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 from = random.point(-1, 2), to = random.point(0, 1);
+        const Ray ray{from, 0, to - from, std::numeric_limits<float>::infinity()};
+        ASSERT_EQ(trace(sah, ray, RayKind::ClosestHit, &by_sah),
+                  trace(morton_image, ray, RayKind::ClosestHit, &by_morton));
+    }
+    EXPECT_GT(by_morton.box_tests, by_sah.box_tests * 11 / 10);
+}
+
+TEST(Bvh, OfMortonCodesHasNoSpatialSplits) {
+    BvhOptions options = morton(4, 1);
+    options.splits = SplitKind::Spatial;
+    EXPECT_THROW((void)image_of(test::triangle_soup(3, 1), options), std::logic_error);
 }
 
 TEST(Bvh, HasOnePairALeafByDefault) {

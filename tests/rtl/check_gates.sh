@@ -10,7 +10,7 @@ if ! command -v yosys >/dev/null; then
     exit 77
 fi
 fresh=$("$gates/count_gates.sh" fp32_add fp32_compare near_to_far:Width=2 near_to_far:Width=3 stream_fifo:Width=7:Depth=8 \
-    stream_fifo:Width=161:Depth=6 result_select free_slots:Slots=16 order_issue)
+    stream_fifo:Width=161:Depth=6 result_select free_slots:Slots=16 order_issue ray_step:Width=2:Row=17)
 if [[ $(head -n1 <<<"$fresh") != $(head -n1 "$gates/gates.csv") ]]; then
     echo "skipped: gates.csv was made by another version: $(head -n1 "$gates/gates.csv")"
     exit 77

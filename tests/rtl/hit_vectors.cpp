@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/exact_sum.hpp"
 #include "model/exact_triangle.hpp"
 #include "model/pair_test.hpp"
 
@@ -11,25 +12,95 @@ namespace rtu::test {
 using model::Hit;
 using model::Vec3;
 
-std::optional<Hit> better_hit_in_model(const HitVector& vector) {
+namespace {
+
+// Triangle by triangle, the hits that are better than what was before them.
+std::array<std::optional<Hit>, 2> better_hits(const HitVector& vector) {
     const model::PairHits found = model::test_pair(vector.pair.pair, vector.pair.ray);
-    std::optional<Hit> best = vector.best, better;
+    std::array<std::optional<Hit>, 2> better;
+    std::optional<Hit> best = vector.best;
     for (std::size_t i = 0; i < 2; ++i) {
         const Hit& hit = found.hits[i];
         const float t_best = best ? best->t : vector.t_max;
         if (!found.is_pierced[i]) continue;
         if (hit.t < t_best || (best && hit.t == t_best && hit.primitive_id < best->primitive_id))
-            best = better = hit;
+            best = better[i] = hit;
     }
     return better;
 }
 
+// One of a pair's triangles, in the stored order of its corners.
+struct Stored {
+    Stored(const PairVector& vector, std::uint32_t triangle)
+        : ray(vector.ray),
+          corners{vector.pair.vertices[0], vector.pair.vertices[1 + triangle],
+                  vector.pair.vertices[2 + triangle]} {}
+
+    // What settles the side of an edge that the ray is exactly on comes from kx first.
+    [[nodiscard]] std::uint32_t ties(std::size_t edge) const {
+        if (exact.edge_function(edge).value != 0) return 0;
+        const Vec3 &p = corners[edge], &q = corners[(edge + 1) % 3], &d = ray.direction;
+        const double along = d[ray.kz], across = d[ray.ky];
+        const model::ExactSum sum(std::array{along * double(p[ray.ky]), -(along * double(q[ray.ky])),
+                                             -(across * double(p[ray.kz])), across * double(q[ray.kz])});
+        return sum.value() != 0 ? 1 : 2;
+    }
+    [[nodiscard]] model::Side side(std::size_t edge) const {
+        return exact.side(edge, exact.edge_function(edge));
+    }
+    [[nodiscard]] bool is_inside() const {
+        return side(0) != model::Side::Neither && side(0) == side(1) && side(1) == side(2);
+    }
+
+    const model::RaySetup& ray;
+    std::array<Vec3, 3> corners;
+    model::ExactTriangle exact{{ray.origin, ray.direction, ray.kz}, corners};
+};
+
+}  // namespace
+
+std::optional<Hit> better_hit_in_model(const HitVector& vector) {
+    const auto better = better_hits(vector);
+    return better[1] ? better[1] : better[0];
+}
+
 bool is_inside_exactly(const PairVector& vector, std::uint32_t triangle) {
-    const auto& v = vector.pair.vertices;
-    const model::ExactTriangle exact({vector.ray.origin, vector.ray.direction, vector.ray.kz},
-                                     {v[0], v[1 + triangle], v[2 + triangle]});
-    const auto side = [&](std::size_t edge) { return exact.side(edge, exact.edge_function(edge)); };
-    return side(0) != model::Side::Neither && side(0) == side(1) && side(1) == side(2);
+    return Stored(vector, triangle).is_inside();
+}
+
+// The model counts them as well, and so do its two tests of a pair of which one triangle is out of the way.
+SecondPass second_pass_in_model(const HitVector& vector) {
+    SecondPass result{vector};
+    for (std::uint32_t i = 0; i < (vector.pair.pair.has_second() ? 2U : 1U); ++i) {
+        model::LeafPair pair = vector.pair.pair;
+        pair.flags |= 1U << (9 - i);
+        const model::PairHits found = model::test_pair(pair, vector.pair.ray);
+        result.goes_on = std::uint8_t(result.goes_on | found.exact_tests << i);
+        result.is_inside = std::uint8_t(result.is_inside | (found.exact_tests - found.side_tests) << i);
+    }
+    return result;
+}
+
+HitPath path_of(const SecondPass& vector) {
+    constexpr std::uint64_t not_better = 56, better = 92, sides = 111, tie = 37;
+    const auto hits = better_hits(vector.hit);
+    HitPath path;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        if ((vector.goes_on >> i & 1U) == 0) continue;
+        const Stored triangle(vector.hit.pair, i);
+        ++path.decided;
+        path.better += hits[i] ? 1 : 0;
+        bool are_sides_equal = true;
+        if ((vector.is_inside >> i & 1U) == 0) {
+            const std::uint32_t ties = triangle.ties(0) + triangle.ties(1) + triangle.ties(2);
+            ++path.open;
+            path.ties += ties;
+            path.cycles += sides + ties * tie;
+            are_sides_equal = triangle.is_inside();
+        }
+        path.cycles += !are_sides_equal ? 1 : hits[i] ? better : not_better;
+    }
+    return path;
 }
 
 HitVector DrawHit::operator()() {

@@ -33,6 +33,22 @@ struct SecondPass {
     std::uint8_t is_inside = 0;  ///< of those, the ones whose sides are settled: all, or fewer
 };
 
+/// A pair behind the model's first pass.
+SecondPass second_pass_in_model(const HitVector& vector);
+
+/// What the hit unit goes through for a pair.
+struct HitPath {
+    std::uint64_t cycles = 0;   ///< from the pair to its result, without what midpoints take
+    std::uint32_t decided = 0;  ///< triangles, 0 to 2
+    std::uint32_t open = 0;     ///< of those, the ones whose sides are not settled
+    std::uint32_t ties = 0;     ///< edges, or directions in which they are seen, that the ray is exactly on
+    std::uint32_t better = 0;   ///< triangles that are a better hit than what was before them
+};
+HitPath path_of(const SecondPass& vector);
+
+/// Cycles that rounding by an exact midpoint takes: of t and u, and one more of v.
+inline constexpr std::uint64_t midpoint_cycles = 162;
+
 /// Sets the inputs of a Verilated hit_unit.
 template <class Unit>
 void drive(Unit& unit, const SecondPass& vector) {

@@ -22,12 +22,28 @@ std::uint32_t goes_on_in_model(const PairVector& vector) {
 
 namespace {
 
+template <class Predicate>
+bool any_coordinate(const PairVector& vector, Predicate is_such) {
+    const auto any = [&](Vec3 v) { return is_such(v.x) || is_such(v.y) || is_such(v.z); };
+    const auto& v = vector.pair.vertices;
+    return any(v[0]) || any(v[1]) || any(v[2]) || any(v[3]) || any(vector.ray.origin) ||
+           any(vector.ray.direction);
+}
+
 void set_ray(PairVector& vector, Vec3 origin, Vec3 direction) {
     if (direction == Vec3{}) direction.z = -1;
     vector.ray = model::make_ray_setup({origin, 0, direction, std::numeric_limits<float>::infinity()}, {});
 }
 
 }  // namespace
+
+bool has_subnormal(const PairVector& vector) {
+    return any_coordinate(vector, [](float x) { return std::fpclassify(x) == FP_SUBNORMAL; });
+}
+
+bool has_huge(const PairVector& vector) {
+    return any_coordinate(vector, [](float x) { return std::fabs(x) >= 0x1p64F; });
+}
 
 PairVector DrawPair::operator()() {
     PairVector vector;

@@ -20,6 +20,10 @@ struct PairVector {
 /// The triangles that the model's first pass lets through: bit per triangle.
 std::uint32_t goes_on_in_model(const PairVector& vector);
 
+/// Whether a coordinate of the pair or its ray is subnormal, or 2^64 or more.
+bool has_subnormal(const PairVector& vector);
+bool has_huge(const PairVector& vector);
+
 /// Sets the inputs of a Verilated pair_reject.
 template <class Unit>
 void drive(Unit& unit, const PairVector& vector) {

@@ -4,10 +4,13 @@
 #include <Vbox_tester_8.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "box_vectors.hpp"
 #include "hesitant.hpp"
+#include "paths.hpp"
 #include "rtl_ref/harness/stream.hpp"
 #include "sim/config.hpp"
 
@@ -128,14 +131,56 @@ struct BuildNames {
 };
 TYPED_TEST_SUITE(BoxTester, Builds, BuildNames);
 
+struct BoxTally {
+    std::uint64_t none = 0, some = 0, all = 0;    // children met, of those that there are
+    std::uint64_t ties = 0;                       // two that are met at one distance
+    std::uint64_t not_finite = 0, subnormal = 0;  // a plane or a number of the ray
+
+    void record() const {
+        test::Paths paths;
+        paths.count("no child met", none);
+        paths.count("some met", some);
+        paths.count("all met", all);
+        paths.count("two at one distance", ties);
+        paths.count("infinities or NaN", not_finite);
+        paths.count("subnormal numbers", subnormal);
+        paths.record();
+    }
+};
+
+template <std::uint32_t Width>
+void count_path(BoxTally& tally, const BoxVector<Width>& vector, std::uint32_t met,
+                const std::array<std::uint32_t, Width>& t_near) {
+    ++(met == 0 ? tally.none : met == vector.node.child_count ? tally.all : tally.some);
+    bool has_tie = false, is_not_finite = false, has_subnormal = false;
+    for (std::uint32_t i = 1; i < met; ++i) has_tie |= t_near[i] == t_near[i - 1];
+    const auto look_at = [&](float x) {
+        is_not_finite |= !std::isfinite(x);
+        has_subnormal |= std::fpclassify(x) == FP_SUBNORMAL;
+    };
+    const auto& ray = vector.ray;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const auto& side : vector.node.planes) std::ranges::for_each(side[axis], look_at);
+        for (const Vec3& v : {ray.origin_near, ray.origin_far, ray.inv_direction}) look_at(v[axis]);
+    }
+    tally.ties += has_tie;
+    tally.not_finite += is_not_finite;
+    tally.subnormal += has_subnormal;
+}
+
 template <class B, class Willing = rtl::AlwaysWilling>
-std::optional<rtl::StreamCycles> compare(std::uint64_t count, Willing willing = {}) {
+std::optional<rtl::StreamCycles> compare(std::uint64_t count, Willing willing = {},
+                                         BoxTally* tally = nullptr) {
     constexpr std::uint32_t width = B::width;
     typename B::Unit unit;
-    Draw<width> draw(width);
+    Draw<width> draw(test::vector_seed(width));
     test::BoxReference<width> reference;
-    const auto check = [&](const auto& rtl, const BoxVector<width>& vector) {
-        if (!testing::Test::HasFatalFailure()) test::expect_as_model(rtl, vector, reference);
+    const auto check = [&](const auto& rtl, const BoxVector<width>& vector, std::uint64_t /*cycles*/) {
+        if (testing::Test::HasFatalFailure()) return;
+        test::expect_as_model(rtl, vector, reference);
+        std::array<std::uint32_t, width> t_near{};
+        std::memcpy(&t_near, &rtl.t_near_o, sizeof t_near);
+        if (tally != nullptr) count_path<width>(*tally, vector, rtl.count_o, t_near);
     };
     return rtl::run_stream(
         unit, count, [&] { return draw(); }, [](auto& rtl, const auto& vector) { test::drive(rtl, vector); },
@@ -144,8 +189,15 @@ std::optional<rtl::StreamCycles> compare(std::uint64_t count, Willing willing = 
 
 TYPED_TEST(BoxTester, MeetsTheChildrenOfTheModelInItsOrderOneNodeACycle) {
     const std::uint64_t count = test::vector_count(1'000'000);
-    const auto cycles = compare<TypeParam>(count);
+    BoxTally tally;
+    const auto cycles = compare<TypeParam>(count, rtl::AlwaysWilling{}, &tally);
     ASSERT_TRUE(cycles);
+    tally.record();
+    for (const std::uint64_t times : {tally.none, tally.some, tally.not_finite, tally.subnormal})
+        EXPECT_GT(times, count / 50);
+    // The more children, the fewer nodes of which all are met; the fewer, the fewer that are met at one
+    // place.
+    for (const std::uint64_t times : {tally.all, tally.ties}) EXPECT_GT(times, count / 500);
     EXPECT_EQ(cycles->total, cycles->first_result + count - 1);
 }
 

@@ -3,6 +3,7 @@
 
 #include "hesitant.hpp"
 #include "hit_vectors.hpp"
+#include "paths.hpp"
 #include "rtl_ref/harness/stream.hpp"
 #include "sim/config.hpp"
 
@@ -34,32 +35,53 @@ class DrawSecondPass {
     test::RandomBits random_;
 };
 
-struct Tally {
-    std::optional<rtl::StreamCycles> cycles;
-    std::uint64_t found = 0;
-};
-
-template <class Draw, class Willing = rtl::AlwaysWilling>
-Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
-    Vhit_unit unit;
-    Tally tally;
-    const auto check = [&](const Vhit_unit& rtl, const SecondPass& vector) {
-        if (testing::Test::HasFatalFailure()) return;
-        ASSERT_EQ(rtl.tag_o, vector.hit.pair.tag);
-        test::expect_as_model(rtl, vector.hit);
-        tally.found += rtl.found_o;
-    };
-    tally.cycles = rtl::run_stream(
-        unit, count, draw, [](auto& rtl, const auto& vector) { test::drive(rtl, vector); }, check, willing);
-    return tally;
+// What a pair took beyond the documented cycles of its path is midpoints. Returns how many, one a triangle's
+// t, u and v at most.
+std::uint64_t midpoints_of(const test::HitPath& path, std::uint64_t cycles) {
+    EXPECT_GE(cycles, path.cycles);
+    const std::uint64_t more = cycles - path.cycles, midpoints = more / test::midpoint_cycles;
+    EXPECT_LE(midpoints, 3 * path.decided);
+    EXPECT_LE(more - midpoints * test::midpoint_cycles, std::min<std::uint64_t>(midpoints, path.better));
+    return midpoints;
 }
 
-TEST(HitUnit, FindsTheHitsOfTheModel) {
-    const std::uint64_t count = test::vector_count(60'000, 10);
-    const Tally tally = compare(count, DrawSecondPass(41));
-    ASSERT_TRUE(tally.cycles);
-    EXPECT_GT(tally.found, count / 4);
-    EXPECT_LT(tally.found, count * 3 / 4);
+void count_path(test::Paths& paths, const SecondPass& vector, std::uint64_t cycles) {
+    const test::HitPath path = test::path_of(vector);
+    const std::uint64_t midpoints = midpoints_of(path, cycles);
+    paths.count(path.better > 0 ? "better hit" : "no better hit");
+    paths.count("both triangles", path.decided == 2 ? 1 : 0);
+    paths.count("open sides", path.open > 0 ? 1 : 0);
+    paths.count("ties", path.ties > 0 ? 1 : 0);
+    paths.count("midpoints", midpoints > 0 ? 1 : 0);
+    paths.count("subnormal numbers", test::has_subnormal(vector.hit.pair) ? 1 : 0);
+    paths.count("numbers from 2^64 on", test::has_huge(vector.hit.pair) ? 1 : 0);
+}
+
+template <class Draw, class Willing = rtl::AlwaysWilling>
+std::optional<rtl::StreamCycles> compare(std::uint64_t count, Draw draw, Willing willing = {},
+                                         test::Paths* paths = nullptr) {
+    Vhit_unit unit;
+    const auto check = [&](const Vhit_unit& rtl, const SecondPass& vector, std::uint64_t cycles) {
+        if (testing::Test::HasFailure()) return;
+        ASSERT_EQ(rtl.tag_o, vector.hit.pair.tag);
+        test::expect_as_model(rtl, vector.hit);
+        if (paths != nullptr) count_path(*paths, vector, cycles);
+    };
+    return rtl::run_stream(
+        unit, count, draw, [](auto& rtl, const auto& vector) { test::drive(rtl, vector); }, check, willing);
+}
+
+TEST(HitUnit, FindsTheHitsOfTheModelInTheDocumentedCycles) {
+    const std::uint64_t count = test::vector_count(60'000);
+    test::Paths paths;
+    ASSERT_TRUE(compare(count, DrawSecondPass(test::vector_seed(41)), rtl::AlwaysWilling{}, &paths));
+    paths.record();
+    EXPECT_EQ(paths.times("better hit") + paths.times("no better hit"), count);
+    for (const char* const path : {"better hit", "no better hit", "both triangles", "open sides"})
+        EXPECT_GT(paths.times(path), count / 10) << path;
+    for (const char* const path : {"ties", "midpoints", "subnormal numbers", "numbers from 2^64 on"})
+        EXPECT_GT(paths.times(path), count / 100) << path;
+    EXPECT_LT(paths.times("midpoints"), count / 20);  // or the leading bits settle less than they should
 }
 
 // A lone triangle across a ray along z. The first pass knows the sides of those that the ray does not meet at
@@ -75,14 +97,14 @@ SecondPass across(const std::array<model::Vec3, 3>& corners, model::Vec3 origin,
 }
 
 std::uint64_t latency(const SecondPass& vector) {
-    return compare(1, [&] { return vector; }).cycles->first_result;
+    return compare(1, [&] { return vector; })->first_result;
 }
 
 constexpr std::array<model::Vec3, 3> plain{{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}}};
 // In cycles: what the simulator charges, and what is so rare that it does not.
 constexpr sim::Config::Rtu::Pair simulated;
 constexpr std::uint64_t not_better = simulated.reject_cycles, better = simulated.hit_cycles;
-constexpr std::uint64_t sides = simulated.side_cycles, tie = 37, midpoint = 162;
+constexpr std::uint64_t sides = simulated.side_cycles, tie = 37, midpoint = test::midpoint_cycles;
 
 TEST(HitUnit, TakesTheDocumentedCyclesForATriangle) {
     SecondPass vector = across(plain, {0, 0, -1});
@@ -136,7 +158,7 @@ TEST(HitUnit, TakesTheDocumentedCyclesForAMidpoint) {
 }
 
 TEST(HitUnit, LosesNothingToHesitantNeighbours) {
-    EXPECT_TRUE(compare(2'000, DrawSecondPass(42), test::Hesitant{}).cycles);
+    EXPECT_TRUE(compare(2'000, DrawSecondPass(42), test::Hesitant{}));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "hesitant.hpp"
 #include "hit_vectors.hpp"
 #include "pair_vectors.hpp"
+#include "paths.hpp"
 #include "rtl_ref/harness/stream.hpp"
 #include "sim/config.hpp"
 
@@ -48,7 +49,7 @@ template <class B, class Draw, class Willing = rtl::AlwaysWilling>
 Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
     typename B::Unit unit;
     Tally tally;
-    const auto check = [&](const auto& rtl, const PairVector& vector) {
+    const auto check = [&](const auto& rtl, const PairVector& vector, std::uint64_t /*cycles*/) {
         if (testing::Test::HasFatalFailure()) return;
         const std::uint32_t expected = test::goes_on_in_model(vector);
         ++tally.outcomes[expected];
@@ -68,8 +69,14 @@ Tally compare(std::uint64_t count, Draw draw, Willing willing = {}) {
 
 TYPED_TEST(PairReject, LetsThroughWhatTheModelLetsThroughAtItsRate) {
     const std::uint64_t count = test::vector_count(1'000'000);
-    const Tally tally = compare<TypeParam>(count, test::DrawPair(21));
+    const Tally tally = compare<TypeParam>(count, test::DrawPair(test::vector_seed(21)));
     ASSERT_TRUE(tally.cycles);
+    test::Paths paths;
+    paths.count("nothing left", tally.outcomes[0]);
+    paths.count("one triangle left", tally.outcomes[1] + tally.outcomes[2]);
+    paths.count("both left", tally.outcomes[3]);
+    paths.count("triangles inside", tally.inside);
+    paths.record();
     for (const std::uint64_t outcome : tally.outcomes) EXPECT_GT(outcome, count / 50);
     EXPECT_GT(tally.inside, count / 50);
     const std::uint64_t issues = TypeParam::mode == PairMode::Single ? tally.triangles : count;

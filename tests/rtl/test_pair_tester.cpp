@@ -1,4 +1,5 @@
 #include <Vpair_tester_0.h>
+#include <Vpair_tester_1.h>
 #include <Vpair_tester_2.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 
 #include "hesitant.hpp"
 #include "hit_vectors.hpp"
+#include "paths.hpp"
 #include "rtl_ref/harness/clock.hpp"
 #include "rtl_ref/harness/stream.hpp"
 #include "sim/config.hpp"
@@ -33,10 +35,23 @@ void drive(Unit& unit, const HitVector& vector) {
     unit.best_id_i = vector.best ? vector.best->primitive_id : 0;
 }
 
+void count_path(test::Paths& paths, const HitVector& vector) {
+    const test::HitPath path = test::path_of(test::second_pass_in_model(vector));
+    paths.count(path.decided == 0 ? "missed in the first pass"
+                : path.better > 0 ? "better hit"
+                                  : "no better hit");
+    paths.count("both triangles in the second pass", path.decided == 2 ? 1 : 0);
+    paths.count("open sides", path.open > 0 ? 1 : 0);
+    paths.count("ties", path.ties > 0 ? 1 : 0);
+    paths.count("subnormal numbers", test::has_subnormal(vector.pair) ? 1 : 0);
+    paths.count("numbers from 2^64 on", test::has_huge(vector.pair) ? 1 : 0);
+}
+
 // Sends pairs through a tester, whose results may come in another order: a tag is that of one pair at a time.
 // Returns the cycles from accepting the first pair to the last result, or nothing if a result is missing.
 template <class Unit, class Draw, class Willing = rtl::AlwaysWilling>
-std::optional<std::uint64_t> compare(std::uint64_t count, Draw draw, Willing willing = {}) {
+std::optional<std::uint64_t> compare(std::uint64_t count, Draw draw, Willing willing = {},
+                                     test::Paths* paths = nullptr) {
     Unit unit;
     std::map<std::uint8_t, HitVector> inside;
     std::uint64_t accepted = 0, retired = 0, cycle = 0, first_accepted = 0, last_progress = 0;
@@ -64,6 +79,7 @@ std::optional<std::uint64_t> compare(std::uint64_t count, Draw draw, Willing wil
             if (vector == inside.end()) return std::nullopt;
             test::expect_as_model(unit, vector->second);
             if (testing::Test::HasFatalFailure()) return std::nullopt;
+            if (paths != nullptr) count_path(*paths, vector->second);
             inside.erase(vector);
             ++retired;
             last_progress = cycle;
@@ -76,22 +92,30 @@ std::optional<std::uint64_t> compare(std::uint64_t count, Draw draw, Willing wil
 
 template <class Unit>
 class PairTester : public testing::Test {};
-using Builds = testing::Types<Vpair_tester_0, Vpair_tester_2>;
+using Builds = testing::Types<Vpair_tester_0, Vpair_tester_1, Vpair_tester_2>;
 struct BuildNames {
     template <class Unit>
     static std::string GetName(int build) {
-        return std::array{"single", "dual_shared"}[std::size_t(build)];
+        return std::array{"single", "dual_independent", "dual_shared"}[std::size_t(build)];
     }
 };
 TYPED_TEST_SUITE(PairTester, Builds, BuildNames);
 
 TYPED_TEST(PairTester, FindsTheHitsOfTheModel) {
-    EXPECT_TRUE(compare<TypeParam>(test::vector_count(6'000, 50), test::DrawHit(51)));
+    const std::uint64_t count = test::vector_count(10'000);
+    test::Paths paths;
+    ASSERT_TRUE(
+        compare<TypeParam>(count, test::DrawHit(test::vector_seed(51)), rtl::AlwaysWilling{}, &paths));
+    paths.record();
+    for (const char* const path : {"missed in the first pass", "better hit", "no better hit", "open sides"})
+        EXPECT_GT(paths.times(path), count / 10) << path;
+    EXPECT_GT(paths.times("ties"), count / 100);
 }
 
 // In cycles, as simulated.
 constexpr sim::Config::Rtu::Pair simulated;
 constexpr std::uint64_t first_pass = simulated.latency_cycles, queue = 2;
+constexpr std::uint64_t hit_units = simulated.hit_units;
 
 // A lone triangle at distance 1, before which the ray ends, or not, or which it misses.
 HitVector at_distance_1(float t_max, float origin_x = 0) {
@@ -111,12 +135,12 @@ TYPED_TEST(PairTester, HasTheDocumentedLatencies) {
     EXPECT_EQ(latency(at_distance_1(2)), first_pass + queue + simulated.hit_cycles);
 }
 
-// Three hit units: the fourth pair waits for the first one's to be free, a cycle after its result.
+// With all hit units taken, the next pair waits for the first one's to be free, a cycle after its result.
 TYPED_TEST(PairTester, TakesALoneTriangleACycleAndKeepsSurvivorsWaiting) {
     EXPECT_EQ(compare<TypeParam>(200, [] { return at_distance_1(2, 9); }), 199 + first_pass);
-    EXPECT_EQ(compare<TypeParam>(3, [] { return at_distance_1(2); }),
-              first_pass + queue + simulated.hit_cycles + 2);
-    EXPECT_EQ(compare<TypeParam>(4, [] { return at_distance_1(2); }),
+    EXPECT_EQ(compare<TypeParam>(hit_units, [] { return at_distance_1(2); }),
+              first_pass + queue + simulated.hit_cycles + hit_units - 1);
+    EXPECT_EQ(compare<TypeParam>(hit_units + 1, [] { return at_distance_1(2); }),
               first_pass + queue + simulated.hit_cycles + 1 + simulated.hit_cycles);
 }
 

@@ -79,7 +79,7 @@ TEST(SceneRays, MeetTheBoxesOfTheModel) {
     Vbox_tester_4 unit;
     test::BoxReference<4> reference;
     const auto drive = [](auto& rtl, const auto& vector) { test::drive(rtl, vector); };
-    const auto check = [&](const auto& rtl, const auto& vector) {
+    const auto check = [&](const auto& rtl, const auto& vector, std::uint64_t /*cycles*/) {
         if (!HasFatalFailure()) test::expect_as_model(rtl, vector, reference);
     };
     EXPECT_TRUE(rtl::run_stream(unit, nodes.size(), replay(nodes), drive, check));
@@ -92,7 +92,7 @@ TEST(SceneRays, SendTheTrianglesOfTheModelToTheSecondPass) {
     int triangles = 0, goes_on = 0, is_inside = 0;
     const auto count = [](std::uint32_t bits) { return std::popcount(bits); };
     const auto drive = [](auto& rtl, const auto& vector) { test::drive(rtl, vector.pair); };
-    const auto check = [&](const auto& rtl, const test::HitVector& vector) {
+    const auto check = [&](const auto& rtl, const test::HitVector& vector, std::uint64_t /*cycles*/) {
         if (HasFatalFailure()) return;
         ASSERT_EQ(rtl.goes_on_o, test::goes_on_in_model(vector.pair));
         triangles += vector.pair.pair.has_second() ? 2 : 1;
@@ -121,7 +121,7 @@ TEST(SceneRays, FindTheHitsOfTheModel) {
     Vhit_unit unit;
     int found = 0;
     const auto drive = [](auto& rtl, const auto& vector) { test::drive(rtl, vector); };
-    const auto check = [&](const auto& rtl, const test::SecondPass& vector) {
+    const auto check = [&](const auto& rtl, const test::SecondPass& vector, std::uint64_t /*cycles*/) {
         if (!HasFatalFailure()) test::expect_as_model(rtl, vector.hit);
         found += rtl.found_o;
     };

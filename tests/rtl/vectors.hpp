@@ -11,9 +11,11 @@
 
 namespace rtu::test {
 
-/// Vectors of a test: `by_default`, or what the environment variable RTUSIM_RTL_VECTORS says; of units that
-/// take many cycles a vector, one in `share`.
-std::uint64_t vector_count(std::uint64_t by_default, std::uint64_t share = 1);
+/// Vectors of a test: `by_default`, or what the environment variable RTUSIM_RTL_VECTORS says.
+std::uint64_t vector_count(std::uint64_t by_default);
+
+/// Seed of a test's vectors: `by_default`, or another one for every value of RTUSIM_RTL_SEED but 0.
+std::uint64_t vector_seed(std::uint64_t by_default);
 
 inline std::uint32_t bits_of(float x) { return std::bit_cast<std::uint32_t>(x); }
 inline float float_of(std::uint32_t bits) { return std::bit_cast<float>(bits); }

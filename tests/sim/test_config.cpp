@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
+#include <variant>
 
 #include "model/error.hpp"
 #include "sim/effective_config.hpp"
@@ -30,8 +33,24 @@ ConfigAssignment number(const ConfigKey& key, std::int64_t value) {
 }
 
 TEST(ConfigKeys, NameEveryFieldOfTheStructOnce) {
-    // All fields are 4 bytes wide or padded to it, so a field without a row shows in the size.
-    EXPECT_EQ(config_keys().size() * sizeof(std::uint32_t), sizeof(Config));
+    // Fields are 4 bytes wide or 1, so a number without a row leaves more room than padding takes.
+    Config config;
+    std::map<std::size_t, std::size_t> sizes{{sizeof(Config), 0}};  // by place
+    for (const ConfigKey& key : config_keys()) {
+        std::visit(
+            [&](auto* field) {
+                const auto* place = reinterpret_cast<const std::byte*>(field);
+                sizes[std::size_t(place - reinterpret_cast<const std::byte*>(&config))] = sizeof(*field);
+            },
+            key.field(config));
+    }
+    EXPECT_EQ(sizes.size(), config_keys().size() + 1);
+    std::size_t end = 0;
+    for (const auto& [place, size] : sizes) {
+        EXPECT_GE(place, end);
+        EXPECT_LT(place - end, sizeof(std::uint32_t)) << "a field without a key before byte " << place;
+        end = place + size;
+    }
     for (const ConfigKey& key : config_keys()) {
         EXPECT_EQ(&key, &config_keys()[config_key_index(key.name, "test")]) << key.name;
     }

@@ -214,6 +214,8 @@ TEST(MailboxConfig, RefusesWhatCannotBe) {
     EXPECT_NO_THROW((void)load({"rtu.mailbox.kind=hashed"}));
     EXPECT_THROW((void)load({"bvh.splits=spatial", "bvh.max_leaf_pairs=2"}), Error);
     EXPECT_THROW((void)load({"bvh.splits=spatial", "bvh.node_format=quantised"}), Error);
+    EXPECT_THROW((void)load({"bvh.splits=spatial", "bvh.builder=morton"}), Error);
+    EXPECT_NO_THROW((void)load({"bvh.builder=morton", "bvh.node_format=quantised"}));
     EXPECT_THROW((void)load({"rtu.mailbox.kind=hashed", "rtu.mailbox.entries=6"}), Error);
     EXPECT_THROW((void)load({"rtu.mailbox.entries=17"}), Error);
     EXPECT_THROW((void)load({"bvh.splits=both"}), Error);

@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "sim/config_keys.hpp"
@@ -10,6 +14,7 @@
 #include "study/area/area_output.hpp"
 #include "study/area/area_study.hpp"
 #include "study/area/area_tables.hpp"
+#include "study/text_table.hpp"
 
 namespace rtu::study {
 namespace {
@@ -246,6 +251,31 @@ TEST(MailboxArea, IsWhatWasCountedAndLinearBetween) {
     }
     EXPECT_NEAR(with(6).gates.gates, (with(4).gates.gates + with(8).gates.gates) / 2, 1e-6);
     EXPECT_NEAR(with(4).sram_bits - none.sram_bits, 128 * (4 * 28 + 2 + 1), 1e-6);
+}
+
+TEST(MailboxArea, IsWhatThePageSays) {
+    std::ifstream stream(std::filesystem::path(RTUSIM_SOURCE_DIR) / "docs/mailbox.md");
+    std::map<std::string, std::string> rows;  // by the first cell of a line of a table
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t end = line.starts_with("| ") ? line.find(" |") : std::string::npos;
+        if (end != std::string::npos) rows[line.substr(2, end - 2)] = line;
+    }
+    const auto area = [](std::string_view kind, std::uint32_t entries) {
+        return total(rtu_area(config_with(
+            {fmt::format("rtu.mailbox.kind={}", kind), fmt::format("rtu.mailbox.entries={}", entries)})));
+    };
+    const AreaTotal none = area("recent", 0);
+    const auto check = [&](const std::string& name, const AreaTotal& with) {
+        const std::string cells = fmt::format(
+            "| {} | {} |", grouped(std::uint64_t(std::lround(with.gates.gates - none.gates.gates))),
+            fixed((with.sram_bits - none.sram_bits) / 1024, 1));
+        EXPECT_THAT(rows[name], HasSubstr(cells)) << name;
+    };
+    for (const std::uint32_t entries : {1U, 2U, 4U, 8U, 16U}) {
+        check(fmt::format("recent {}", entries), area("recent", entries));
+    }
+    check("hashed 8", area("hashed", 8));
+    check("per_pair", area("per_pair", 0));
 }
 
 TEST(AreaReport, SaysTheSameAsTextJsonAndCsv) {

@@ -15,6 +15,7 @@
 namespace rtu::study {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -55,6 +56,15 @@ TEST(ChartScript, DashesLevelsOfOneColourApart) {
     EXPECT_LT(first, second);
     EXPECT_NE(script.find("dashtype 2", second), std::string::npos);
     EXPECT_EQ(script.find("dashtype 4"), std::string::npos);
+}
+
+TEST(ChartScript, DrawsASeriesWithoutItsLine) {
+    Chart chart = line_chart();
+    EXPECT_THAT(gnuplot_script(chart, ChartFormat::Svg), Not(HasSubstr("with points")));
+    chart.series.push_back({"places", {{3, 1}}, {}, {}, 1});
+    chart.series.back().has_line = false;
+    const std::string script = gnuplot_script(chart, ChartFormat::Svg);
+    EXPECT_THAT(script, AllOf(HasSubstr("with linespoints"), HasSubstr("with points")));
 }
 
 // Nothing that a name can hold ends its quotes or begins a line of its own.

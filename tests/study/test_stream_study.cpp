@@ -160,6 +160,21 @@ StreamReport small_report() {
     return run_stream_study(options);
 }
 
+// What is left is what comes before the first batch and behind the last.
+TEST(StreamStudy, TakesATimeLinearInItsTests) {
+    const StreamInput few = make_input(512, 64), many = make_input(2048, 64);
+    StreamRunner run_few(few), run_many(many);
+    for (const std::string link : {"agp_8x", "pcie4_x16"}) {
+        for (const StreamMode mode : {StreamMode::Direct, StreamMode::Batched, StreamMode::Mixed}) {
+            const std::uint64_t batch = mode == StreamMode::Direct ? 1 : 256;
+            const auto cycles = [&](StreamRunner& runner) {
+                return double(runner.run(machine_of(link), mode, ReadBack::Tests, batch).result.cycles);
+            };
+            EXPECT_NEAR(cycles(run_many) / cycles(run_few), 4, 0.04) << link << ' ' << int(mode);
+        }
+    }
+}
+
 TEST(StreamStudy, ReportsEveryModeLinkAndBatch) {
     const StreamReport report = small_report();
     EXPECT_EQ(report.ray_count, 20U);

@@ -68,6 +68,8 @@ TEST(SweepFile, LinkedKeysChangeTogether) {
     const auto both = [](const sim::Config& config) { return config.rtu.count * 100 + config.dram.channels; };
     EXPECT_THAT(values("[[linked]]\nrtu.count = [1, 2, 3]\ndram.channels = [4, 8, 16]\n", both),
                 ElementsAre(104, 208, 316));
+    EXPECT_THAT(values("[[linked]]\nrtu.count = [1, 2, 2]\ndram.channels = [4, 4, 8]\n", both),
+                ElementsAre(104, 204, 208));
 }
 
 TEST(SweepFile, ConstraintsLeaveDesignsOut) {
@@ -165,6 +167,8 @@ const BadFile bad_files[] = {
     {"[axes]\nrtu.ray_slots = [1, 0]\n",
      "s.toml:3: rtu.ray_slots: expected a number from 1 to 4096 rays, got 0"},
     {"[axes]\nrtu.ray_slots = [1, 1]\n", "s.toml:3: rtu.ray_slots: expected every value once"},
+    {"[[linked]]\nrtu.ray_slots = [1, 1, 1]\nbvh.width = [2, 4, 2]\n",
+     "s.toml:3: rtu.ray_slots: expected every combination of linked values once"},
     {"[axes]\nrtu.ray_slots = []\n", "s.toml:3: rtu.ray_slots: expected 1 to 65536 values, got none"},
     {"[axes]\nrtu.ray_slots = 5\n", "s.toml:3: expected rtu.ray_slots: a list of values, or"},
     {"[axes]\nrtu.ray_slots = [1.5]\n", "s.toml:3: expected rtu.ray_slots: a whole number or a name"},
