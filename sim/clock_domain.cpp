@@ -75,16 +75,15 @@ void ClockDomain::guard(const std::function<void()>& body) {
 }
 
 void ClockDomain::run_batch() {
-    guard([this] { observer_ != nullptr ? tick_batch<true>() : tick_batch<false>(); });
+    guard([this] { tick_batch(); });
 }
 
-template <bool IsObserved>
 void ClockDomain::tick_batch() {
     const Cycle start = now_;
     const Cycle end = start + batch_cycles;
     while (now_ < end) {
         for (ClockedUnit* unit : units_) unit->step(now_);
-        if constexpr (IsObserved) observer_->after(now_, now_ + 1);
+        if (observer_ != nullptr) observer_->after(now_, now_ + 1);
         if (is_done_()) {
             ++now_;
             sc_core::sc_pause();
@@ -94,7 +93,7 @@ void ClockDomain::tick_batch() {
         if (next > now_ + 1) {
             if (next == no_cycle) fail();
             for (ClockedUnit* unit : units_) unit->skip(now_, next - now_ - 1);
-            if constexpr (IsObserved) observer_->after(now_ + 1, next);
+            if (observer_ != nullptr) observer_->after(now_ + 1, next);
         }
         now_ = next;
     }

@@ -54,7 +54,6 @@ class ClockDomain final : public sc_core::sc_module {
     void guard(const std::function<void()>& body);
     void run_batch();     // the process of Fast
     void end_of_cycle();  // the process of Verify that ends the run
-    template <bool IsObserved>
     void tick_batch();
     [[nodiscard]] Cycle next_cycle() const;
     void watch();
