@@ -90,6 +90,7 @@ struct Fit {
     double mean_residual = 0;
     std::vector<double> residuals;
     double rank = 0;
+    std::vector<Vector> x;
     Vector mean_x{};
 };
 
@@ -111,6 +112,7 @@ Fit fit(const std::vector<Observation>& observations) {
         if (fit.inverse[i][i] > 0) ++fit.rank;
     }
     for (const auto& [y, x] : observations) {
+        fit.x.push_back(x);
         fit.residuals.push_back(y - dot(fit.beta, x));
         fit.mean_residual += fit.residuals.back() / n;
     }
@@ -129,30 +131,45 @@ double variance_of_mean(const std::vector<double>& values) {
     return squares / (2 * (n - 1) * n);
 }
 
-// The variance of a residual, and the quantile of Student's t that says how well it is known.
-struct Spread {
+// The variance of the estimate that the windows' scatter makes, and the quantile of Student's t that says how
+// well it is known.
+struct Scatter {
     double variance = 0;
     double quantile = 0;
 };
 
-Spread spread_of_residuals(const Fit& fit) {
-    const auto n = double(fit.residuals.size());
-    const double freedom = std::max(1.0, n - fit.rank);
-    double squares = 0;
-    for (const double residual : fit.residuals) squares += residual * residual;
-    return {squares / freedom, t_quantile(freedom)};
+// From so many windows on, what varies slowly along the run is no error, as windows are spread over it: only
+// what neighbours differ by is. That is known less well, by two thirds of the degrees of freedom [Wolter07,
+// ch. 8], and fewer windows gain nothing by it.
+constexpr std::size_t fewest_neighbours = 36;
+
+// As [Satterthwaite46], for normal errors: 3 v^2 is the mean of a fourth power, v that of its square.
+double degrees_of_freedom(const std::vector<double>& errors, double most) {
+    double squares = 0, fourths = 0;
+    for (const double error : errors) {
+        squares += error * error;
+        fourths += error * error * error * error;
+    }
+    return fourths > 0 ? std::clamp(3 * squares * squares / fourths - 2, 1.0, most) : most;
 }
 
-// Of residuals in order, one from each of equal parts, what varies slowly along the run is no error; only
-// what neighbours differ by is. That is known less well: two thirds of the degrees of freedom [Wolter07, ch.
-// 8]. So few windows gain nothing by it.
-constexpr std::size_t fewest_neighbours = 40;
-
-Spread spread_of_neighbours(const Fit& fit) {
+// Windows do not scatter alike: those that cost more, scatter more, and the fit follows them more. So each
+// counts with its own residual, enlarged for what the fit took of it: HC2 of [MW85].
+Scatter scatter_of_windows(const Fit& fit, const Vector& apart) {
     const auto n = double(fit.residuals.size());
-    const double freedom = std::max(1.0, n - fit.rank);
-    return {variance_of_mean(fit.residuals) * n * n / freedom,
-            t_quantile(std::max(1.0, 2.0 / 3 * (n - 1) - fit.rank + 1))};
+    std::vector<double> errors;  // of the estimate, by each window
+    double squares = 0;
+    for (std::size_t i = 0; i < fit.residuals.size(); ++i) {
+        Vector solved{};
+        for (std::size_t k = 0; k < covariate_count; ++k) solved[k] = dot(fit.inverse[k], fit.x[i]);
+        const double weight = 1 / n + dot(apart, solved);
+        const double left = std::max(1e-6, 1 - dot(fit.x[i], solved));  // of the window's own error
+        errors.push_back(weight * fit.residuals[i] / std::sqrt(left));
+        squares += errors.back() * errors.back();
+    }
+    const double freedom = degrees_of_freedom(errors, std::max(1.0, n - fit.rank));
+    if (errors.size() < fewest_neighbours) return {squares, t_quantile(freedom)};
+    return {n * n * variance_of_mean(errors), t_quantile(std::max(1.0, 2.0 / 3 * freedom))};
 }
 
 std::vector<WindowSample> in_order(std::span<const WindowMeasurement> passes) {
@@ -253,13 +270,9 @@ CycleEstimate estimate_cycles(const sim::Config& config, std::span<const WindowM
     if (estimate.rays <= 0) return estimate;
     estimate.cycles_per_ray = cycles / estimate.rays;
 
-    double leverage = 1 / double(fitted.residuals.size());
-    for (std::size_t i = 0; i < covariate_count; ++i) leverage += apart[i] * dot(fitted.inverse[i], apart);
-    // By their number, not by their result: the narrower of two intervals would hold less than either.
-    const Spread spread = fitted.residuals.size() < fewest_neighbours ? spread_of_residuals(fitted)
-                                                                      : spread_of_neighbours(fitted);
+    const Scatter scatter = scatter_of_windows(fitted, apart);
     // The lattice has thousands of rays: the normal distribution will do for its part.
-    const double of_windows = spread.quantile * spread.quantile * spread.variance * leverage;
+    const double of_windows = scatter.quantile * scatter.quantile * scatter.variance;
     const double of_population =
         1.96 * 1.96 * length * length * population.variance_of_cost(fitted.beta, estimate.cycles_per_ray);
     const double half = windows * std::sqrt(of_windows + of_population) / estimate.rays;

@@ -24,8 +24,8 @@ struct CycleEstimate {
 /// same length), of which the first has the run's ends and the blocks. A regression estimator [Cochran77, ch.
 /// 7]: the windows tell what their work costs, by least squares on rays, box tests and the cycles of the
 /// busiest unit, and lattice and blocks tell how much of these the whole workload has. The interval is
-/// Student's t on the windows' residuals, widened by the uncertainty of these means. It knows nothing of a
-/// bias of the windows themselves.
+/// Student's t on the windows' residuals, whose variances may differ [MW85], widened by the uncertainty of
+/// these means. It knows nothing of a bias of the windows themselves.
 [[nodiscard]] CycleEstimate estimate_cycles(const sim::Config& config,
                                             std::span<const WindowMeasurement> passes);
 
