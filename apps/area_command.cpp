@@ -22,14 +22,14 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* area_description =
     "tell what a machine is made of: gates, register bits, multipliers, adders and SRAM bits of every unit, "
     "from\n"
     "the synthesised RTL reference; with scenes, MRPS per million gates, and what sharing a pair's common "
     "edge\n"
     "saves in gates against what it costs in cycles";
 
-constexpr const char* footer =
+constexpr const char* area_footer =
     "Examples:\n"
     "  rtusim area                                     the default machine, beside all presets\n"
     "  rtusim area --set rtu.box.boxes_per_cycle=2     half the box lanes\n"
@@ -39,7 +39,7 @@ constexpr const char* footer =
     "  rtusim area bunny.glb --html area.html          one page with all tables and charts\n"
     "  rtusim area --json - | jq '.presets[] | {name, gates}'\n";
 
-struct Arguments {
+struct AreaArguments {
     std::vector<std::string> scenes;
     MachineOptions machine;
     std::string workloads = "primary,shadow,diffuse";
@@ -51,7 +51,7 @@ struct Arguments {
     ChartFiles charts;
 };
 
-void add_options(CLI::App& area, Arguments& arguments) {
+void add_options(CLI::App& area, AreaArguments& arguments) {
     area.add_option("SCENE", arguments.scenes,
                     "glTF 2.0 files (.gltf, .glb) to simulate, or `builtin`; none: areas only")
         ->type_name("");
@@ -65,7 +65,7 @@ void add_options(CLI::App& area, Arguments& arguments) {
     add_threads_option(area, arguments.threads);
 }
 
-study::AreaOptions options_of(const Arguments& arguments) {
+study::AreaOptions options_of(const AreaArguments& arguments) {
     study::AreaOptions options;
     options.preset = arguments.machine.preset;
     options.config = load(arguments.machine).config;
@@ -88,7 +88,7 @@ study::AreaReport measure(study::AreaOptions& options) {
     return study::run_area_study(options);
 }
 
-int run_area(const Arguments& arguments) {
+int run_area(const AreaArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::AreaOptions options = options_of(arguments);
     const auto inputs = input_files(options.scenes, {arguments.camera, arguments.machine.file});
@@ -107,9 +107,9 @@ int run_area(const Arguments& arguments) {
 }  // namespace
 
 void add_area_command(CLI::App& app, std::function<int()>& command) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* area = app.add_subcommand("area", description);
-    area->footer(footer);
+    auto arguments = std::make_shared<AreaArguments>();
+    CLI::App* area = app.add_subcommand("area", area_description);
+    area->footer(area_footer);
     area->get_formatter()->column_width(34);
     add_options(*area, *arguments);
     area->callback([arguments, &command] { command = [arguments] { return run_area(*arguments); }; });

@@ -20,11 +20,11 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* chart_description =
     "make the pictures of the studies of ray-triangle methods, measured on this host (about a minute);\n"
     "needs gnuplot";
 
-struct Arguments {
+struct ChartArguments {
     std::string folder = "charts";
     std::string html;
     std::string names;
@@ -36,7 +36,7 @@ struct Arguments {
     unsigned threads = 0;
 };
 
-std::string footer() {
+std::string chart_footer() {
     std::string text = "Pictures:\n";
     for (const study::ChartInfo& chart : study::known_charts()) {
         text += fmt::format("  {:<12}{}\n", chart.name, chart.meaning);
@@ -49,7 +49,7 @@ std::string footer() {
            "  rtusim chart --only precision --scene bunny.glb\n";
 }
 
-void add_options(CLI::App& chart, Arguments& arguments) {
+void add_options(CLI::App& chart, ChartArguments& arguments) {
     chart.add_option("--out", arguments.folder, "where the SVG and PNG files go; made if missing")
         ->type_name("DIR")
         ->check(is_not_empty())
@@ -83,7 +83,7 @@ void add_options(CLI::App& chart, Arguments& arguments) {
         ->capture_default_str();
 }
 
-study::ChartOptions options_of(const Arguments& arguments) {
+study::ChartOptions options_of(const ChartArguments& arguments) {
     study::ChartOptions options;
     options.names = parse_list("--only", arguments.names);
     study::check_chart_names(options.names);
@@ -96,7 +96,7 @@ study::ChartOptions options_of(const Arguments& arguments) {
     return options;
 }
 
-void check_outputs(const Arguments& arguments) {
+void check_outputs(const ChartArguments& arguments) {
     std::vector<std::filesystem::path> inputs;
     for (const std::string& name : {arguments.scene, arguments.camera}) {
         if (!name.empty()) inputs.emplace_back(name);
@@ -112,7 +112,7 @@ std::vector<study::NamedChart> measure(study::ChartOptions& options) {
     return study::make_charts(options, study::measure_charts(options));
 }
 
-int run_chart(const Arguments& arguments) {
+int run_chart(const ChartArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::ChartOptions options = options_of(arguments);
     check_outputs(arguments);
@@ -138,9 +138,9 @@ int run_chart(const Arguments& arguments) {
 }  // namespace
 
 void add_chart_command(CLI::App& app, std::function<int()>& command) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* chart = app.add_subcommand("chart", description);
-    chart->footer(footer());
+    auto arguments = std::make_shared<ChartArguments>();
+    CLI::App* chart = app.add_subcommand("chart", chart_description);
+    chart->footer(chart_footer());
     chart->get_formatter()->column_width(34);
     add_options(*chart, *arguments);
     chart->callback([arguments, &command] { command = [arguments] { return run_chart(*arguments); }; });

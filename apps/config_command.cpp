@@ -9,7 +9,7 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* config_footer =
     "Examples:\n"
     "  rtusim config > machine.toml                        a file to edit, and to give to --config\n"
     "  rtusim config --preset rdna4 --set rtu.count=2      a preset with a change\n"
@@ -39,7 +39,7 @@ void add_config_command(CLI::App& app, std::function<int()>& command) {
         "config",
         "print the machine: every key with its value, unit, range, meaning and source, as TOML that\n"
         "--config reads back");
-    config->footer(footer);
+    config->footer(config_footer);
     add_machine_options(*config, arguments->machine);
     add_link_option(*config, arguments->machine);
     CLI::Option* markdown =

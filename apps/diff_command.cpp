@@ -10,7 +10,7 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* diff_footer =
     "Host times are left out. Nothing that is simulated is random, so every change is real; it is called\n"
     "significant when it is by more than the tolerance. Of two sweeps the same designs are compared; the\n"
     "sign test tells how likely equal chances of up and down would split the rows so unevenly.\n"
@@ -37,7 +37,7 @@ int print_diff(const DiffArguments& arguments) {
 void add_diff_command(CLI::App& app, std::function<int()>& command) {
     auto arguments = std::make_shared<DiffArguments>();
     CLI::App* diff = app.add_subcommand("diff", "tell what changed between two runs or two sweeps");
-    diff->footer(footer);
+    diff->footer(diff_footer);
     diff->add_option("A", arguments->before, "a report in JSON, or a database of sweeps")
         ->required()
         ->type_name("");

@@ -23,11 +23,11 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* fidelity_description =
     "compare the levels of fidelity with every ray through the cycle model: error of MRPS, whether it is\n"
     "inside the stated interval, host speed, and whether the level ranks 20 machines in the same order";
 
-constexpr const char* footer =
+constexpr const char* fidelity_footer =
     "Examples:\n"
     "  rtusim fidelity                                        the built-in scene, four machines\n"
     "  rtusim fidelity *.glb --camera scenes.toml --json all.json --chart fidelity\n"
@@ -36,7 +36,7 @@ constexpr const char* footer =
     "  rtusim fidelity bunny.glb --preset default --workload primary --resolution 1024x1024\n"
     "  rtusim fidelity --level sampled --tolerance 1 --json - | jq '.rows[].error_percent'\n";
 
-struct Arguments {
+struct FidelityArguments {
     std::vector<std::string> scenes;
     std::string presets = "default,cxt,rdna4,xe_hpg";
     std::string levels = "counts,analytic,sampled,auto";
@@ -50,7 +50,7 @@ struct Arguments {
     ReportOutput output;
 };
 
-void add_study_options(CLI::App& fidelity, Arguments& arguments) {
+void add_study_options(CLI::App& fidelity, FidelityArguments& arguments) {
     add_scenes_option(fidelity, arguments.scenes);
     const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
         fidelity.add_option(name, value, help)->type_name(type)->capture_default_str();
@@ -67,7 +67,7 @@ void add_study_options(CLI::App& fidelity, Arguments& arguments) {
                       "leave out the 20 machines: the first scene and machine, the last workload");
 }
 
-void add_output_options(CLI::App& fidelity, Arguments& arguments) {
+void add_output_options(CLI::App& fidelity, FidelityArguments& arguments) {
     add_report_options(fidelity, arguments.output);
     fidelity
         .add_option("--chart", arguments.chart,
@@ -98,7 +98,7 @@ std::vector<study::FidelityLevel> levels_of(const std::string& names) {
     return levels;
 }
 
-study::FidelityOptions options_of(const Arguments& arguments) {
+study::FidelityOptions options_of(const FidelityArguments& arguments) {
     study::FidelityOptions options;
     options.scenes = parse_scenes(arguments.scenes);
     options.machines = machines_of(arguments.presets);
@@ -113,7 +113,7 @@ study::FidelityOptions options_of(const Arguments& arguments) {
     return options;
 }
 
-void check_outputs(const Arguments& arguments) {
+void check_outputs(const FidelityArguments& arguments) {
     std::vector<std::filesystem::path> inputs(arguments.scenes.begin(), arguments.scenes.end());
     if (!arguments.camera.empty()) inputs.emplace_back(arguments.camera);
     check_report_output(arguments.output, inputs);
@@ -122,7 +122,7 @@ void check_outputs(const Arguments& arguments) {
     study::check_gnuplot();
 }
 
-int run_fidelity(const Arguments& arguments) {
+int run_fidelity(const FidelityArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::FidelityOptions options = options_of(arguments);
     check_outputs(arguments);
@@ -149,9 +149,9 @@ int run_fidelity(const Arguments& arguments) {
 }  // namespace
 
 void add_fidelity_command(CLI::App& app, std::function<int()>& command) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* fidelity = app.add_subcommand("fidelity", description);
-    fidelity->footer(footer);
+    auto arguments = std::make_shared<FidelityArguments>();
+    CLI::App* fidelity = app.add_subcommand("fidelity", fidelity_description);
+    fidelity->footer(fidelity_footer);
     fidelity->get_formatter()->column_width(34);
     add_study_options(*fidelity, *arguments);
     add_output_options(*fidelity, *arguments);

@@ -23,14 +23,14 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* mailbox_description =
     "tell what spatial splits are worth to a machine that tests pairs, and what a mailbox saves of the "
     "tests\n"
     "that they repeat: the same rays on trees with and without splits, over several pairings, with "
     "mailboxes\n"
     "of the last pairs, a hashed one, and the classic one of a word a pair in memory";
 
-constexpr const char* footer =
+constexpr const char* mailbox_footer =
     "Examples:\n"
     "  rtusim mailbox                                      the built-in scene\n"
     "  rtusim mailbox sponza.glb --charts out              tests, MRPS and MRPS per gate against the "
@@ -42,7 +42,7 @@ constexpr const char* footer =
     "  rtusim mailbox a.glb --json - | jq '.rows[] | select(.entries == 8) | .mrps'\n\n"
     "bvh.splits and rtu.mailbox are what is varied, and cannot be set.\n";
 
-struct Arguments {
+struct MailboxArguments {
     std::vector<std::string> scenes;
     MachineOptions machine;
     std::string pairings = "window:2,sa_exchange";
@@ -56,7 +56,7 @@ struct Arguments {
     std::string folder;
 };
 
-void add_options(CLI::App& mailbox, Arguments& arguments) {
+void add_options(CLI::App& mailbox, MailboxArguments& arguments) {
     add_scenes_option(mailbox, arguments.scenes);
     add_machine_options(mailbox, arguments.machine);
     mailbox.add_option("--pairings", arguments.pairings, "METHODs as in `run`; the first is the baseline")
@@ -116,7 +116,7 @@ sim::Config machine_of(const MachineOptions& machine) {
     return config;
 }
 
-study::MailboxStudyOptions options_of(const Arguments& arguments) {
+study::MailboxStudyOptions options_of(const MailboxArguments& arguments) {
     study::MailboxStudyOptions options;
     options.config = machine_of(arguments.machine);
     options.scenes = parse_scenes(arguments.scenes);
@@ -131,7 +131,7 @@ study::MailboxStudyOptions options_of(const Arguments& arguments) {
     return options;
 }
 
-int run_mailbox(const Arguments& arguments) {
+int run_mailbox(const MailboxArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::MailboxStudyOptions options = options_of(arguments);
     const auto inputs = input_files(options.scenes, {arguments.camera, arguments.machine.file});
@@ -152,9 +152,9 @@ int run_mailbox(const Arguments& arguments) {
 }  // namespace
 
 void add_mailbox_command(CLI::App& app, std::function<int()>& command) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* mailbox = app.add_subcommand("mailbox", description);
-    mailbox->footer(footer);
+    auto arguments = std::make_shared<MailboxArguments>();
+    CLI::App* mailbox = app.add_subcommand("mailbox", mailbox_description);
+    mailbox->footer(mailbox_footer);
     mailbox->get_formatter()->column_width(34);
     add_options(*mailbox, *arguments);
     mailbox->callback([arguments, &command] { command = [arguments] { return run_mailbox(*arguments); }; });

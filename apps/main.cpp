@@ -37,11 +37,11 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* program_description =
     "rtusim - a cycle-approximate simulator of a hardware ray-tracing unit.\n"
     "Per scene it reports ray-box and ray-triangle test counts, cycles and million rays per second (MRPS).";
 
-constexpr const char* footer =
+constexpr const char* program_footer =
     "Examples:\n"
     "  rtusim run                              the built-in scene on the default machine\n"
     "  rtusim run bunny.glb --check            a glTF file, every hit verified\n"
@@ -104,8 +104,8 @@ int guarded(const std::function<int()>& command) {
 }
 
 int run_cli(int argc, char** argv) {
-    CLI::App app{description, "rtusim"};
-    app.footer(footer);
+    CLI::App app{program_description, "rtusim"};
+    app.footer(program_footer);
     app.set_version_flag("--version", fmt::format("rtusim {}", study::version()),
                          "print the version and exit");
     app.require_subcommand(1);

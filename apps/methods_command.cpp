@@ -21,11 +21,11 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* methods_description =
     "measure how many ray-triangle tests a second each intersection method does on this host,\n"
     "one by one, in packets of rays, over wide leaves and in pairs";
 
-struct Arguments {
+struct MethodsArguments {
     std::vector<std::string> scenes;
     std::string methods, forms;
     std::uint32_t triangle_count = 1024, ray_count = 256, repeats = 7;
@@ -35,7 +35,7 @@ struct Arguments {
     ReportOutput output;
 };
 
-std::string footer() {
+std::string methods_footer() {
     std::string text = "Methods:\n";
     for (const auto& method : model::methods::all_methods())
         text += fmt::format("  {:<26}{}, {}\n", method.info.name, method.info.title, method.info.source);
@@ -53,7 +53,7 @@ std::string footer() {
            "  rtusim methods --json - | jq '.rows[] | {method, form, width, mtests_per_second}'\n";
 }
 
-void add_options(CLI::App& methods, Arguments& arguments) {
+void add_options(CLI::App& methods, MethodsArguments& arguments) {
     methods
         .add_option("SCENE", arguments.scenes,
                     "glTF 2.0 files (.gltf, .glb): 1,024 of their rays are measured on their own leaves, too")
@@ -86,7 +86,7 @@ void add_options(CLI::App& methods, Arguments& arguments) {
     add_report_options(methods, arguments.output);
 }
 
-study::MethodsOptions options_of(const Arguments& arguments) {
+study::MethodsOptions options_of(const MethodsArguments& arguments) {
     study::MethodsOptions options;
     options.methods = parse_list("--method", arguments.methods);
     std::ranges::for_each(options.methods, study::check_method_name);
@@ -111,7 +111,7 @@ study::MethodsReport measure(study::MethodsOptions& options) {
     return study::run_methods_study(options);
 }
 
-int run_methods(const Arguments& arguments) {
+int run_methods(const MethodsArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::MethodsOptions options = options_of(arguments);
     std::vector<std::filesystem::path> inputs(arguments.scenes.begin(), arguments.scenes.end());
@@ -126,9 +126,9 @@ int run_methods(const Arguments& arguments) {
 }  // namespace
 
 void add_methods_command(CLI::App& app, std::function<int()>& command) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* methods = app.add_subcommand("methods", description);
-    methods->footer(footer());
+    auto arguments = std::make_shared<MethodsArguments>();
+    CLI::App* methods = app.add_subcommand("methods", methods_description);
+    methods->footer(methods_footer());
     methods->get_formatter()->column_width(34);
     add_options(*methods, *arguments);
     methods->callback([arguments, &command] { command = [arguments] { return run_methods(*arguments); }; });

@@ -21,11 +21,11 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* pairing_description =
     "tell what a triangle pairing does to this hardware on these scenes, against a baseline pairing:\n"
     "box tests, pair tests, MRPS, memory, and which part of the machine is the limit";
 
-std::string footer() {
+std::string pairing_footer() {
     std::string text = "Studies (--study NAME,... or all), each a table and charts:\n";
     for (const study::PairingStudyInfo& study : study::pairing_studies()) {
         text += fmt::format("  {:<16}{}\n", study.name, study.meaning);
@@ -129,8 +129,8 @@ int run_pairing(const PairingArguments& arguments) {
 
 void add_pairing_command(CLI::App& app, std::function<int()>& command) {
     auto arguments = std::make_shared<PairingArguments>();
-    CLI::App* pairing = app.add_subcommand("pairing", description);
-    pairing->footer(footer());
+    CLI::App* pairing = app.add_subcommand("pairing", pairing_description);
+    pairing->footer(pairing_footer());
     pairing->get_formatter()->column_width(34);
     add_comparison_options(*pairing, *arguments);
     add_ray_options(*pairing, *arguments);

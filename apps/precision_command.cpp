@@ -23,11 +23,11 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* precision_description =
     "tell the cheapest ray-triangle method and number format that is exact enough for a scene's rays:\n"
     "every method in exponents of 5, 8 and 10 bits and mantissas of 7 to 23, against the exact test";
 
-struct Arguments {
+struct PrecisionArguments {
     std::vector<std::string> scenes;
     std::string methods;
     std::uint32_t ray_count = study::PrecisionOptions{}.ray_count;
@@ -40,7 +40,7 @@ struct Arguments {
     ReportOutput output;
 };
 
-std::string footer() {
+std::string precision_footer() {
     std::string text = "Methods:\n";
     for (const auto& method : model::methods::emulated_methods()) {
         text += fmt::format("  {:<26}{}, {}\n", method.info.name, method.info.title, method.info.source);
@@ -54,7 +54,7 @@ std::string footer() {
            "  rtusim precision a.glb --json - | jq '.answers[0].row.format'\n";
 }
 
-void add_study_options(CLI::App& precision, Arguments& arguments) {
+void add_study_options(CLI::App& precision, PrecisionArguments& arguments) {
     add_scenes_option(precision, arguments.scenes);
     precision.add_option("--method", arguments.methods, "only these, see below")
         ->type_name("LIST")
@@ -81,7 +81,7 @@ void add_study_options(CLI::App& precision, Arguments& arguments) {
     add_seed_option(precision, arguments.seed);
 }
 
-void add_output_options(CLI::App& precision, Arguments& arguments) {
+void add_output_options(CLI::App& precision, PrecisionArguments& arguments) {
     add_report_options(precision, arguments.output);
     add_threads_option(precision, arguments.threads);
 }
@@ -99,7 +99,7 @@ void check_methods(const std::vector<std::string>& names) {
     }
 }
 
-study::PrecisionOptions options_of(const Arguments& arguments) {
+study::PrecisionOptions options_of(const PrecisionArguments& arguments) {
     study::PrecisionOptions options;
     options.methods = parse_list("--method", arguments.methods);
     check_methods(options.methods);
@@ -120,7 +120,7 @@ study::PrecisionReport measure(study::PrecisionOptions& options) {
     return study::run_precision_study(options);
 }
 
-int run_precision(const Arguments& arguments) {
+int run_precision(const PrecisionArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::PrecisionOptions options = options_of(arguments);
     std::vector<std::filesystem::path> inputs(arguments.scenes.begin(), arguments.scenes.end());
@@ -136,9 +136,9 @@ int run_precision(const Arguments& arguments) {
 }  // namespace
 
 void add_precision_command(CLI::App& app, std::function<int()>& command) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* precision = app.add_subcommand("precision", description);
-    precision->footer(footer());
+    auto arguments = std::make_shared<PrecisionArguments>();
+    CLI::App* precision = app.add_subcommand("precision", precision_description);
+    precision->footer(precision_footer());
     precision->get_formatter()->column_width(34);
     add_study_options(*precision, *arguments);
     add_output_options(*precision, *arguments);

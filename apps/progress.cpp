@@ -7,11 +7,6 @@
 #include <string>
 
 namespace rtu::apps {
-namespace {
-
-constexpr std::string_view clear_line = "\r\x1b[K";
-
-}  // namespace
 
 Progress::Progress() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 

@@ -4,6 +4,9 @@
 
 namespace rtu::apps {
 
+/// Goes to the beginning of a terminal's line and empties it.
+inline constexpr std::string_view clear_line = "\r\x1b[K";
+
 /// One line on standard error that is overwritten by the next and gone at the end; silent unless standard
 /// error is a terminal.
 class Progress {

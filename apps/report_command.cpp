@@ -17,11 +17,11 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* report_description =
     "make one HTML page of results: what limits the machine and what to change, with charts to hover and\n"
     "filter. The page needs no network; a result is known by its content, whatever its name";
 
-constexpr const char* footer =
+constexpr const char* report_footer =
     "Results: what --json of run, pairing, fidelity, stability, methods, precision, area, validate, stream "
     "and\n"
     "sweep wrote, databases of sweeps, and the _box_tests.json of run --image.\n\n"
@@ -59,8 +59,8 @@ int write_page(const ReportArguments& arguments) {
 
 void add_report_command(CLI::App& app, std::function<int()>& command) {
     auto arguments = std::make_shared<ReportArguments>();
-    CLI::App* report = app.add_subcommand("report", description);
-    report->footer(footer);
+    CLI::App* report = app.add_subcommand("report", report_description);
+    report->footer(report_footer);
     report->get_formatter()->column_width(34);
     report->add_option("RESULT", arguments->results, "files that other commands wrote, see below")
         ->required()

@@ -26,7 +26,7 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* footer =
+constexpr const char* run_footer =
     "Examples:\n"
     "  rtusim run                                          the built-in scene\n"
     "  rtusim run bunny.glb --pairing window:2 --check     the hits verified\n"
@@ -107,7 +107,7 @@ int run_scenes(const RunArguments& arguments) {
 void add_run_command(CLI::App& app, std::function<int()>& command) {
     auto arguments = std::make_shared<RunArguments>();
     CLI::App* run_app = app.add_subcommand("run", "simulate scenes and report tests, cycles and MRPS");
-    run_app->footer(footer);
+    run_app->footer(run_footer);
     run_app->get_formatter()->column_width(34);
     add_scenes_option(*run_app, arguments->scenes);
     CLI::Option* rays =

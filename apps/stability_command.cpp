@@ -26,7 +26,7 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* stability_description =
     "hold ray-triangle methods, the machine and Embree against exact arithmetic where methods fail:\n"
     "leaks, double hits, wrong decisions, and errors of t, u and v";
 
@@ -39,7 +39,7 @@ struct StabilityArguments {
     ReportOutput output;
 };
 
-std::string footer() {
+std::string stability_footer() {
     std::string text = "Cases (--case NAME,...; docs/stability.md says what each is):\n";
     for (const study::StabilityCase& one : study::stability_cases()) {
         text += fmt::format("  {:>2} {:<18}{}: {}\n", one.number, one.name, one.title, one.check);
@@ -160,8 +160,8 @@ void add_options(CLI::App& stability, StabilityArguments& arguments) {
 
 void add_stability_command(CLI::App& app, std::function<int()>& command) {
     auto arguments = std::make_shared<StabilityArguments>();
-    CLI::App* stability = app.add_subcommand("stability", description);
-    stability->footer(footer());
+    CLI::App* stability = app.add_subcommand("stability", stability_description);
+    stability->footer(stability_footer());
     stability->get_formatter()->column_width(34);
     add_options(*stability, *arguments);
     stability->callback(

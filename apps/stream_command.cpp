@@ -19,11 +19,11 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* stream_description =
     "stream rays and triangles over a host link through the pair testers, without a BVH: every ray against\n"
     "every pair. How fast with and without the link, where the time goes, and which batch is large enough";
 
-constexpr const char* footer =
+constexpr const char* stream_footer =
     "Modes:\n"
     "  direct     a ray and a pair go up for each test, and the host waits for the result\n"
     "  batched    a batch holds a ray and a pair for each of its tests\n"
@@ -129,8 +129,8 @@ int run_stream(const StreamArguments& arguments) {
 
 void add_stream_command(CLI::App& app, std::function<int()>& command) {
     auto arguments = std::make_shared<StreamArguments>();
-    CLI::App* stream = app.add_subcommand("stream", description);
-    stream->footer(footer);
+    CLI::App* stream = app.add_subcommand("stream", stream_description);
+    stream->footer(stream_footer);
     stream->get_formatter()->column_width(34);
     add_work_options(*stream, *arguments);
     add_stream_options(*stream, *arguments);

@@ -24,10 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* description =
+constexpr const char* sweep_description =
     "simulate many machines: what a sweep file names, every combination once, into one SQLite file";
 
-constexpr const char* footer =
+constexpr const char* sweep_footer =
     "A sweep file, in TOML (docs/sweeps.md describes all of it):\n"
     "  scenes = [\"bunny.glb\"]                       files relative to this one, or \"builtin\"\n"
     "  workloads = [\"primary\", \"diffuse\"]\n"
@@ -195,8 +195,8 @@ void add_executor_options(CLI::App& app, SweepArguments& arguments) {
 
 void add_sweep_command(CLI::App& app, std::function<int()>& command) {
     auto arguments = std::make_shared<SweepArguments>();
-    CLI::App* sweep_app = app.add_subcommand("sweep", description);
-    sweep_app->footer(footer);
+    CLI::App* sweep_app = app.add_subcommand("sweep", sweep_description);
+    sweep_app->footer(sweep_footer);
     sweep_app->get_formatter()->column_width(34);
     sweep_app->add_option("SWEEP", arguments->file, "the sweep file")->required()->type_name("");
     sweep_app->add_flag("--dry-run", arguments->is_dry_run,

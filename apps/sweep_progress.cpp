@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <string>
 
+#include "apps/progress.hpp"
 #include "study/sweep/sweep_text.hpp"
 
 namespace rtu::apps {
 namespace {
 
-constexpr std::string_view clear_line = "\r\x1b[K";
 constexpr auto log_interval = std::chrono::seconds(30);
 
 std::string text_of(const study::SweepProgress& progress) {

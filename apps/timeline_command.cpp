@@ -19,12 +19,12 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* timeline_description =
     "show what each unit and ray slot does, cycle by cycle, in a window of a run: as a trace for Perfetto "
     "and\n"
     "chrome://tracing (--json), and as waveforms of the units' states and channels (--vcd)";
 
-constexpr const char* footer =
+constexpr const char* timeline_footer =
     "Examples:\n"
     "  rtusim timeline --json t.json                          the first 2,000 cycles; open it at "
     "ui.perfetto.dev\n"
@@ -34,13 +34,13 @@ constexpr const char* footer =
 
 constexpr sim::Cycle most_cycles = 1'000'000;
 
-struct Arguments {
+struct TimelineArguments {
     RunArguments run;
     study::TimelineWindow window;
     std::string json, vcd;
 };
 
-void check_outputs(const Arguments& arguments, const RunPlan& plan) {
+void check_outputs(const TimelineArguments& arguments, const RunPlan& plan) {
     for (const std::string& name : {arguments.json, arguments.vcd}) {
         if (!name.empty() && name != "-") check_output(name, plan.inputs);
     }
@@ -49,7 +49,7 @@ void check_outputs(const Arguments& arguments, const RunPlan& plan) {
     }
 }
 
-int run_timeline(const Arguments& arguments) {
+int run_timeline(const TimelineArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     RunPlan plan = make_run_plan(arguments.run);
     if (plan.options.workloads.size() > 1) {
@@ -73,7 +73,7 @@ int run_timeline(const Arguments& arguments) {
     return exit_done;
 }
 
-void add_window_options(CLI::App& timeline, Arguments& arguments) {
+void add_window_options(CLI::App& timeline, TimelineArguments& arguments) {
     timeline.add_option("--from", arguments.window.from, "first cycle of the window")
         ->type_name("CYCLE")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48))
@@ -93,10 +93,10 @@ void add_window_options(CLI::App& timeline, Arguments& arguments) {
 }  // namespace
 
 void add_timeline_command(CLI::App& app, std::function<int()>& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<TimelineArguments>();
     arguments->run.workloads = "primary";
-    CLI::App* timeline = app.add_subcommand("timeline", description);
-    timeline->footer(footer);
+    CLI::App* timeline = app.add_subcommand("timeline", timeline_description);
+    timeline->footer(timeline_footer);
     timeline->get_formatter()->column_width(34);
     timeline
         ->add_option("SCENE", arguments->run.scenes,

@@ -27,12 +27,12 @@
 namespace rtu::apps {
 namespace {
 
-constexpr const char* description =
+constexpr const char* validate_description =
     "run the same rays through the simulator and the Verilated RTU, on many machines: hits and counts must "
     "be\n"
     "the same, cycles should be; a difference in hits or counts is exit code 3";
 
-struct Arguments {
+struct ValidateArguments {
     std::vector<std::string> scenes;
     std::string only;
     std::vector<std::string> sim_sets;
@@ -46,7 +46,7 @@ struct Arguments {
     ChartFiles charts;
 };
 
-std::string footer() {
+std::string validate_footer() {
     std::string text = "Machines (--only), each against base:\n";
     for (const study::ValidateConfig& config : study::validate_configs()) {
         text += fmt::format("  {:<20}", config.name);
@@ -65,7 +65,7 @@ std::string footer() {
            "  rtusim validate --json - | jq .summary\n";
 }
 
-void add_options(CLI::App& validate, Arguments& arguments) {
+void add_options(CLI::App& validate, ValidateArguments& arguments) {
     add_scenes_option(validate, arguments.scenes);
     validate.add_option("--only", arguments.only, "only these machines, see below")
         ->type_name("LIST")
@@ -120,7 +120,7 @@ std::optional<std::uint64_t> parse_cycle(std::string_view text) {
     return is_number ? std::optional(value) : std::nullopt;
 }
 
-std::optional<study::WaveWindow> parse_waves(const Arguments& arguments,
+std::optional<study::WaveWindow> parse_waves(const ValidateArguments& arguments,
                                              const study::ValidateOptions& options) {
     if (arguments.waves.empty()) return std::nullopt;
     if (options.scenes.size() != 1 || options.workloads.size() != 1 || options.configs.size() != 1) {
@@ -143,7 +143,7 @@ std::optional<study::WaveWindow> parse_waves(const Arguments& arguments,
     return study::WaveWindow{file, *first, *end};
 }
 
-study::ValidateOptions options_of(const Arguments& arguments) {
+study::ValidateOptions options_of(const ValidateArguments& arguments) {
     study::ValidateOptions options;
     options.scenes = parse_scenes(arguments.scenes);
     options.workloads = parse_workloads(arguments.workloads);
@@ -167,7 +167,7 @@ study::ValidateReport measure(study::ValidateOptions& options) {
     return study::run_validation(options);
 }
 
-int run_validate(const Arguments& arguments) {
+int run_validate(const ValidateArguments& arguments) {
     study::remove_temporaries_on_interrupt();
     study::ValidateOptions options = options_of(arguments);
     std::vector<std::filesystem::path> inputs(arguments.scenes.begin(), arguments.scenes.end());
@@ -190,9 +190,9 @@ int run_validate(const Arguments& arguments) {
 }  // namespace
 
 void add_validate_command(CLI::App& app, std::function<int()>& command) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* validate = app.add_subcommand("validate", description);
-    validate->footer(footer);
+    auto arguments = std::make_shared<ValidateArguments>();
+    CLI::App* validate = app.add_subcommand("validate", validate_description);
+    validate->footer(validate_footer);
     validate->get_formatter()->column_width(34);
     add_options(*validate, *arguments);
     validate->callback([arguments, &command] { command = [arguments] { return run_validate(*arguments); }; });

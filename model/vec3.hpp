@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace rtu::model {
+
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Three binary32 components: a point or a direction.
 struct Vec3 {

@@ -11,6 +11,7 @@
 #include "model/sampling.hpp"
 #include "model/surface.hpp"
 #include "model/traversal.hpp"
+#include "model/vec3.hpp"
 
 namespace rtu::model {
 namespace {
@@ -21,8 +22,6 @@ constexpr std::array<std::pair<WorkloadKind, std::string_view>, 5> kind_names{
      {WorkloadKind::AmbientOcclusion, "ao"},
      {WorkloadKind::Diffuse, "diffuse"},
      {WorkloadKind::Random, "random"}}};
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // A point light to the upper right of the eye, half way to the first surface there and at most half of the
 // scene's diagonal away: in a room it stays in the room, and everywhere it lights some of what the camera

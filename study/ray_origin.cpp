@@ -11,10 +11,6 @@
 namespace rtu::study {
 namespace {
 
-void tell(const RunOptions& options, const std::string& phase) {
-    if (options.progress) options.progress(phase);
-}
-
 SceneReport described(const RunOptions& options) {
     SceneReport scene;
     scene.version = version();
@@ -83,12 +79,12 @@ std::unique_ptr<PreparedScene> prepare_scene(const RunOptions& options, const Sc
         header = read_header(*options.rays);
         check_wishes(*header, options);
     }
-    tell(options, "loading " + source.name());
+    options.tell("loading " + source.name());
     scene->loaded = load_scene(source);
     const model::TriangleMesh& mesh = scene->loaded.mesh;
     report.scene = scene->loaded.facts;
     report.input_hash = scene->loaded.input_hash;
-    tell(options, "pairing and building the tree");
+    options.tell("pairing and building the tree");
     scene->built = build_scene(mesh, options.pairing, options.edge_identity, options.config.bvh);
     report.pairing = scene->built.pairing;
     report.bvh = scene->built.bvh;

@@ -53,6 +53,11 @@ struct RunOptions {
     bool wants_pixels = false;  ///< fill SceneReport::pixels: see trace_pixels()
     /// Told at the start of each phase, and now and then within one; may be empty.
     std::function<void(std::string_view phase)> progress;
+
+    /// Tells `progress` of a phase, if anybody listens.
+    void tell(std::string_view phase) const {
+        if (progress) progress(phase);
+    }
 };
 
 }  // namespace rtu::study

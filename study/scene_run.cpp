@@ -25,10 +25,6 @@ std::uint64_t peak_rss_bytes() {
     return std::uint64_t(usage.ru_maxrss) * 1024;
 }
 
-void tell(const RunOptions& options, const std::string& phase) {
-    if (options.progress) options.progress(phase);
-}
-
 // Hands rays through and tells `hits` of them.
 class TeeSupply final : public sim::RaySupply {
   public:
@@ -57,13 +53,13 @@ void run_workload(WorkloadStream& rays, const model::MemoryImage& image, const R
     const sim::MachineResult result = sim::simulate(
         options.config, image, supply, rays.kind(),
         [&](const std::optional<model::Hit>& hit) { hits.add_hit(hit); }, options.clock_mode,
-        [&](double share) { tell(options, fmt::format("{}: {:.0f} % of all rays", name, share * 100)); });
+        [&](double share) { options.tell(fmt::format("{}: {:.0f} % of all rays", name, share * 100)); });
     // Neither making rays nor checking hits is simulation.
     scene.host.cpu_seconds += cpu_seconds() - rays.cpu_seconds() - hits.cpu_seconds() - start;
     scene.host.simulated_rays += result.ray_count;
     scene.workloads.push_back(workload_report(name, hits.hit_count(), result));
     if (checker == nullptr) return;
-    tell(options, name + ": checking hits");
+    options.tell(name + ": checking hits");
     const model::TraversalCounts counts = hits.finish();
     RTU_CHECK(counts == result.counts,
               "{}: simulated and reference counts differ: {} and {} box tests, {} and {} pair tests", name,

@@ -29,6 +29,8 @@ class TextTable {
     std::vector<std::vector<std::string>> rows_;  // an empty row is a rule
 };
 
+inline constexpr auto left_aligned = TextTable::Align::Left;
+
 /// 1234567 as "1,234,567".
 [[nodiscard]] std::string grouped(std::uint64_t value);
 /// A value >= 0 with that many decimals and thousands separators: "1,234.50".

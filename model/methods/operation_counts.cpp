@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "model/methods/single_call-inl.hpp"
+#include "model/vec3.hpp"
 
 namespace rtu::model::methods {
 namespace {
 
 using namespace RTU_TARGET;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 using Tally = Counted::Tally;
 
 // What `run` does, counted.

@@ -14,7 +14,6 @@ namespace {
 using Column = TextTable::Column;
 using Cells = std::vector<std::string>;
 using sim::PairMode;
-constexpr auto left = TextTable::Align::Left;
 
 std::string count(double value) { return grouped(std::uint64_t(std::llround(value))); }
 std::string kilobits(double bits) { return bits > 0 ? fixed(bits / 1024, bits < 10240 ? 1 : 0) : "-"; }
@@ -41,7 +40,7 @@ StudyTable with_gates(std::string title, std::vector<Column> first, std::vector<
 
 StudyTable box_table() {
     StudyTable table = with_gates("Box unit: a node of W children every W / lanes cycles",
-                                  {{"Width"}, {"Lanes"}}, {{"Gates\na lane"}, {"Basis", left}});
+                                  {{"Width"}, {"Lanes"}}, {{"Gates\na lane"}, {"Basis", left_aligned}});
     for (const std::uint32_t width : {2U, 4U, 6U, 8U}) {
         for (std::uint32_t lanes = std::max(1U, width / 2); lanes <= width;
              lanes += std::max(1U, width / 2)) {
@@ -61,8 +60,8 @@ StudyTable box_table() {
 
 StudyTable mode_table(const AreaReport& report) {
     StudyTable table =
-        with_gates(fmt::format("Pair unit of {} in each mode", report.machine.machine.name), {{"Mode", left}},
-                   {{"Gates against\ndual_independent, %"}, {"Machine\ngates"}});
+        with_gates(fmt::format("Pair unit of {} in each mode", report.machine.machine.name),
+                   {{"Mode", left_aligned}}, {{"Gates against\ndual_independent, %"}, {"Machine\ngates"}});
     const double independent = report.modes[std::size_t(PairMode::DualIndependent)].pair.gates.gates;
     for (const ModeArea& mode : report.modes) {
         Cells& cells = table.rows.emplace_back(Cells{std::string(name_of(mode.mode))});
@@ -75,9 +74,9 @@ StudyTable mode_table(const AreaReport& report) {
 
 StudyTable part_table(const AreaReport& report) {
     const MachineArea& area = report.machine;
-    StudyTable table =
-        with_gates(fmt::format("One RTU of {}", area.machine.name),
-                   {{"Unit", left}, {"Part", left}, {"Copies"}}, {{"SRAM\nkbit"}, {"Basis", left}});
+    StudyTable table = with_gates(fmt::format("One RTU of {}", area.machine.name),
+                                  {{"Unit", left_aligned}, {"Part", left_aligned}, {"Copies"}},
+                                  {{"SRAM\nkbit"}, {"Basis", left_aligned}});
     std::string last;
     for (const AreaPart& part : area.parts) {
         Cells& cells =
@@ -114,7 +113,7 @@ StudyTable preset_table(const AreaReport& report) {
             "L1, "
             "with its\nshare of wires and registers. *: a tester without hit units; its exact pass is in no "
             "count.",
-        .columns = {{"Preset", left},
+        .columns = {{"Preset", left_aligned},
                     {"Box"},
                     {"Pair"},
                     {"Scheduler"},
@@ -154,7 +153,7 @@ StudyTable clock_table(const AreaReport& report) {
     StudyTable table{
         .title = fmt::format("Depth beside a clock of {} MHz", grouped(clock_mhz)),
         .note = "Two-input gates and multiplexers of the deepest stage, before any sizing or restructuring.",
-        .columns = {{"Counted unit", left}, {"Depth\ngates"}, {"ps\na gate"}},
+        .columns = {{"Counted unit", left_aligned}, {"Depth\ngates"}, {"ps\na gate"}},
         .rows = {}};
     for (const CountedUnit& unit : counted_units()) {
         table.rows.push_back(
@@ -171,8 +170,8 @@ StudyTable row_table(const AreaReport& report) {
             "Change: dual_shared against dual_independent. Pair unit: what it alone would let through, were "
             "its\n"
             "most used part held all the time. /Mgate: a million gates of the machine, or of the pair unit.",
-        .columns = {{"Scene", left},
-                    {"Workload", left},
+        .columns = {{"Scene", left_aligned},
+                    {"Workload", left_aligned},
                     {"Pairs\nper ray"},
                     {"Replays\n% of pairs"},
                     {"Survivors\n% of pairs"},

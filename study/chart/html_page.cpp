@@ -10,7 +10,7 @@
 namespace rtu::study {
 namespace {
 
-constexpr std::string_view style = R"(
+constexpr std::string_view page_style = R"(
 :root { color-scheme: light dark; --text: #1a1a1a; --back: #ffffff; --line: #d0d0d0; --quiet: #595959; }
 @media (prefers-color-scheme: dark) {
   :root { --text: #e6e6e6; --back: #16181c; --line: #454a52; --quiet: #a6adb8; }
@@ -132,7 +132,7 @@ std::string html_page(std::string_view title, std::string_view body) {
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{}</title>\n<style>{}</style>"
         "</head>\n<body>\n<h1>{}</h1>\n{}</body></html>\n",
-        html_escaped(title), style, html_escaped(title), body);
+        html_escaped(title), page_style, html_escaped(title), body);
 }
 
 }  // namespace rtu::study

@@ -36,8 +36,8 @@ Axis axis_of(const std::vector<ScatterPoint>& points, Member member, bool is_log
     const auto [least, most] = std::ranges::minmax_element(points, {}, member);
     const double lo = (*least).*member, hi = (*most).*member;
     if (is_logarithmic) return {lo / 1.5, hi * 1.5, true};
-    const double margin = hi > lo ? 0.08 * (hi - lo) : 1;
-    return {lo - margin, hi + margin, false};
+    const double gap = hi > lo ? 0.08 * (hi - lo) : 1;
+    return {lo - gap, hi + gap, false};
 }
 
 struct Box {

@@ -15,8 +15,6 @@
 namespace rtu::study {
 namespace {
 
-constexpr std::uint32_t part_positions = 1 << 16;
-
 // Of the analytic model's estimate; measured, see docs/fidelity.md.
 constexpr double always_allowed = 0.06, allowed_of_memory = 0.9;
 
@@ -54,7 +52,7 @@ LevelResult run_counts(const sim::Config& config, const model::MemoryImage& imag
     model::TraversalStack stack;
     LevelResult result;
     for (std::uint32_t begin = 0; begin < population.size();) {
-        const std::uint32_t end = begin + std::min(part_positions, population.size() - begin);
+        const std::uint32_t end = begin + std::min(RayPopulation::part_positions, population.size() - begin);
         const PopulationPart part = population.part(begin, end);
         for (const model::Ray& ray : part.rays) {
             static_cast<void>(model::trace(stack, image, ray, population.kind(), &counts));

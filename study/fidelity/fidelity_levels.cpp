@@ -11,8 +11,6 @@
 namespace rtu::study {
 namespace {
 
-constexpr std::uint32_t part_positions = 1 << 16;
-
 // Makes a part of the population at a time.
 class PopulationSupply final : public sim::RaySupply {
   public:
@@ -20,7 +18,8 @@ class PopulationSupply final : public sim::RaySupply {
     [[nodiscard]] std::optional<sim::SuppliedRay> next() override {
         while (next_ == part_.rays.size()) {
             if (begin_ == population_.size()) return std::nullopt;
-            const std::uint32_t end = begin_ + std::min(part_positions, population_.size() - begin_);
+            const std::uint32_t end =
+                begin_ + std::min(RayPopulation::part_positions, population_.size() - begin_);
             part_ = population_.part(begin_, end);
             begin_ = end;
             next_ = 0;

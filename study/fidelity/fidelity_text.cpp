@@ -11,7 +11,6 @@ namespace rtu::study {
 namespace {
 
 using Column = TextTable::Column;
-constexpr auto left = TextTable::Align::Left;
 
 // Of values in any order; 0 without any.
 double quantile(std::vector<double> values, double share) {
@@ -71,8 +70,11 @@ std::string comparisons(const FidelityReport& report) {
     std::vector<std::string> levels = levels_of(report);
     std::erase(levels, "cycle");
     std::erase(levels, "rtl");
-    std::vector<Column> columns{
-        {"Scene", left}, {"Machine", left}, {"Workload", left}, {"All\nrays"}, {"cycle\nMRPS"}};
+    std::vector<Column> columns{{"Scene", left_aligned},
+                                {"Machine", left_aligned},
+                                {"Workload", left_aligned},
+                                {"All\nrays"},
+                                {"cycle\nMRPS"}};
     for (const std::string& level : levels) columns.push_back({level + "\nerror (half) faster"});
     TextTable table(columns);
     std::string scene;
@@ -95,8 +97,8 @@ std::string comparisons(const FidelityReport& report) {
 }
 
 std::string rtl_comparisons(const FidelityReport& report) {
-    TextTable table({{"Scene", left},
-                     {"Workload", left},
+    TextTable table({{"Scene", left_aligned},
+                     {"Workload", left_aligned},
                      {"Rays"},
                      {"RTL\nMRPS"},
                      {"RTL against\ncycle, %"},
@@ -113,8 +115,11 @@ std::string rtl_comparisons(const FidelityReport& report) {
 }
 
 std::string rankings(const FidelityReport& report) {
-    TextTable table(
-        {{"Scene", left}, {"Workload", left}, {"Level", left}, {"Kendall\ntau"}, {"Host\nCPU s"}});
+    TextTable table({{"Scene", left_aligned},
+                     {"Workload", left_aligned},
+                     {"Level", left_aligned},
+                     {"Kendall\ntau"},
+                     {"Host\nCPU s"}});
     for (const FidelityRanking& ranking : report.rankings) {
         table.add_row({ranking.scene, ranking.workload, ranking.level, fmt::format("{:.3f}", ranking.tau),
                        fixed(ranking.host_seconds, 2)});
@@ -125,7 +130,7 @@ std::string rankings(const FidelityReport& report) {
 }  // namespace
 
 std::string fidelity_summary(const FidelityReport& report) {
-    TextTable table({{"Level", left},
+    TextTable table({{"Level", left_aligned},
                      {"Cases"},
                      {"Error, %\nmedian"},
                      {"Error, %\n95th"},
@@ -169,9 +174,9 @@ std::string fidelity_text(const FidelityReport& report) {
 }
 
 std::string estimates_text(std::span<const FidelityRow> rows) {
-    TextTable table({{"Scene", left},
-                     {"Workload", left},
-                     {"Level", left},
+    TextTable table({{"Scene", left_aligned},
+                     {"Workload", left_aligned},
+                     {"Level", left_aligned},
                      {"MRPS"},
                      {"95 % interval"},
                      {"Simulated\nrays"},

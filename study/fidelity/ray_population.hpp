@@ -21,6 +21,9 @@ struct PopulationPart {
 /// order of the positions is the order in which a run hands the rays to the machine.
 class RayPopulation {
   public:
+    /// How many positions to make at a time.
+    static constexpr std::uint32_t part_positions = 1 << 16;
+
     RayPopulation() = default;
     RayPopulation(const RayPopulation&) = delete;
     RayPopulation& operator=(const RayPopulation&) = delete;

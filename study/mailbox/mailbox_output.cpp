@@ -15,7 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using sim::SplitKind;
-constexpr auto left = TextTable::Align::Left;
 
 std::string_view name_of(SplitKind splits) { return splits == SplitKind::Spatial ? "spatial" : "object"; }
 
@@ -87,9 +86,9 @@ std::string answer(const MailboxReport& report, const std::string& scene) {
 }
 
 std::string table(const MailboxReport& report, const std::string& scene, const std::string& workload) {
-    TextTable text({{"Pairing", left},
-                    {"Splits", left},
-                    {"Mailbox", left},
+    TextTable text({{"Pairing", left_aligned},
+                    {"Splits", left_aligned},
+                    {"Mailbox", left_aligned},
                     {"Leaves\nadded %"},
                     {"Box tests\na ray"},
                     {"Pair tests\na ray"},

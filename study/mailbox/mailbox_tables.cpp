@@ -13,7 +13,6 @@ namespace rtu::study {
 namespace {
 
 using sim::SplitKind;
-constexpr auto left = TextTable::Align::Left;
 
 std::string signed_percent(double value) { return fmt::format("{:+.1f}", value); }
 
@@ -37,9 +36,9 @@ double mebibytes(std::uint64_t bytes) { return double(bytes) / double(1U << 20U)
 std::string tree_worth_table(const MailboxReport& report) {
     const std::vector<TreeWorth> worths = tree_worths(report);
     if (worths.empty()) return {};
-    TextTable text({{"Scene", left},
-                    {"Rays", left},
-                    {"Pairing", left},
+    TextTable text({{"Scene", left_aligned},
+                    {"Rays", left_aligned},
+                    {"Pairing", left_aligned},
                     {"Pairing\nalone %"},
                     {"Splits\nalone %"},
                     {"Pairing with\nsplits %"},
@@ -58,8 +57,8 @@ std::string tree_worth_table(const MailboxReport& report) {
 }
 
 std::string tree_table(const MailboxReport& report) {
-    TextTable text({{"Scene", left},
-                    {"Pairing", left},
+    TextTable text({{"Scene", left_aligned},
+                    {"Pairing", left_aligned},
                     {"Leaves\nadded %"},
                     {"Image, object\nMiB"},
                     {"spatial\nMiB"},
@@ -81,7 +80,7 @@ std::string tree_table(const MailboxReport& report) {
 
 std::string mailbox_mrps_table(const MailboxReport& report) {
     const std::vector<MailboxCost> costs = mailbox_costs(report);
-    std::vector<TextTable::Column> columns{{"Scene", left}, {"Pairing", left}, {"none"}};
+    std::vector<TextTable::Column> columns{{"Scene", left_aligned}, {"Pairing", left_aligned}, {"none"}};
     for (const MailboxCost& cost : costs) columns.push_back({mailbox_name(cost.mailbox)});
     TextTable text(columns);
     for_each_tree(report, [&](const std::string& scene, const std::string& pairing) {
@@ -96,7 +95,7 @@ std::string mailbox_mrps_table(const MailboxReport& report) {
 }
 
 std::string mailbox_cost_table(const MailboxReport& report) {
-    TextTable text({{"Mailbox", left},
+    TextTable text({{"Mailbox", left_aligned},
                     {"Found"},
                     {"of the\nduplicates %"},
                     {"Gates\nadded"},

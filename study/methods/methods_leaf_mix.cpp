@@ -56,15 +56,15 @@ std::vector<RayLeaves> sample(const model::MemoryImage& image, const model::Work
     return mix;
 }
 
-struct Candidate {
+struct MixCandidate {
     Kernel kernel;
     std::vector<PreparedTriangles> triangles;
     std::uint64_t tests = 0, hit_rays = 0;
     double least_seconds = std::numeric_limits<double>::infinity();
 };
 
-Candidate prepared(const Kernel& kernel, std::span<const RayLeaves> mix) {
-    Candidate one{.kernel = kernel, .triangles = {}};
+MixCandidate prepared(const Kernel& kernel, std::span<const RayLeaves> mix) {
+    MixCandidate one{.kernel = kernel, .triangles = {}};
     for (const RayLeaves& leaves : mix) {
         kernel.store(leaves.triangles, one.triangles.emplace_back());
         one.tests += leaves.triangles.size();
@@ -72,7 +72,7 @@ Candidate prepared(const Kernel& kernel, std::span<const RayLeaves> mix) {
     return one;
 }
 
-void time_once(std::span<const RayLeaves> mix, Candidate& one) {
+void time_once(std::span<const RayLeaves> mix, MixCandidate& one) {
     one.hit_rays = 0;
     const double begin = thread_cpu_seconds();
     for (std::size_t i = 0; i < mix.size(); ++i) {
@@ -126,16 +126,16 @@ std::vector<MethodsRow> measure_leaf_mix(std::span<const Kernel> kernels, std::s
                                          std::span<const RayLeaves> pairs, const std::string& workload,
                                          std::uint32_t repeats, const MethodsProgress& progress) {
     const auto mix_of = [&](const Kernel& kernel) { return kernel.form == Form::Pairs ? pairs : singles; };
-    std::vector<Candidate> candidates;
+    std::vector<MixCandidate> candidates;
     for (const Kernel& kernel : kernels)
         if (kernel.form != Form::Rays && !mix_of(kernel).empty())
             candidates.push_back(prepared(kernel, mix_of(kernel)));
     for (std::uint32_t repeat = 0; repeat < repeats; ++repeat) {
-        for (Candidate& one : candidates) time_once(mix_of(one.kernel), one);
+        for (MixCandidate& one : candidates) time_once(mix_of(one.kernel), one);
         progress(double(repeat + 1) / repeats);
     }
     std::vector<MethodsRow> rows;
-    for (const Candidate& one : candidates)
+    for (const MixCandidate& one : candidates)
         rows.push_back({.kernel = one.kernel,
                         .workload = workload,
                         .tests_per_second = double(one.tests) / one.least_seconds,

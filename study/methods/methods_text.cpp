@@ -22,7 +22,7 @@ std::string millions(std::optional<double> per_second) {
 
 std::string ratio(std::optional<double> value) { return value ? fixed(*value, 2) : "-"; }
 
-std::string cycles(const MethodsReport& report, std::optional<double> per_second) {
+std::string cycles_text(const MethodsReport& report, std::optional<double> per_second) {
     return per_second ? fixed(report.clock_hz / *per_second, 1) : "-";
 }
 
@@ -139,9 +139,9 @@ std::string all_forms_table(const MethodsReport& report) {
         if (!method.empty() && method != row.kernel.method.name) table.add_rule();
         method = row.kernel.method.name;
         table.add_row({std::string(row.kernel.method.title), form_text(row), millions(row.tests_per_second),
-                       cycles(report, row.tests_per_second), ratio(ratio_to_wald(report, row)),
+                       cycles_text(report, row.tests_per_second), ratio(ratio_to_wald(report, row)),
                        millions(row.first_pass_tests_per_second), millions(row.worst_tests_per_second),
-                       cycles(report, row.worst_tests_per_second)});
+                       cycles_text(report, row.worst_tests_per_second)});
     }
     return "\nAll forms. Worst case: a hit does not shorten the ray. First pass: over rays whose outcomes "
            "the\n"
@@ -175,7 +175,7 @@ std::string leaf_table(const MethodsReport& report) {
         if (!workload.empty() && workload != row.workload) table.add_rule();
         workload = row.workload;
         table.add_row({row.workload, std::string(row.kernel.method.title), form_text(row), grouped(row.tests),
-                       millions(row.tests_per_second), cycles(report, row.tests_per_second),
+                       millions(row.tests_per_second), cycles_text(report, row.tests_per_second),
                        ratio(ratio_to_wald(report, row))});
     }
     if (workload.empty()) return "";

@@ -17,7 +17,7 @@ std::string file_part(std::string name) {
     return name;
 }
 
-using Value = std::optional<double> (*)(const PairingRow&);
+using RowValue = std::optional<double> (*)(const PairingRow&);
 
 struct Quantity {
     std::string_view key;
@@ -82,7 +82,7 @@ Chart framed(const PairingReport& report, const PairingStudyInfo& what, std::str
 
 // One line a scene (and method); of `window`, the methods without a window are dashed levels.
 Chart line_chart(const PairingReport& report, const PairingStudyTable& study, std::string_view suffix,
-                 Value value) {
+                 RowValue value) {
     Chart chart = framed(report, info(study.kind), suffix);
     const bool is_window = study.kind == PairingStudyKind::Window;
     for (const PairingPoint& point : study.points) {
@@ -111,7 +111,7 @@ Chart line_chart(const PairingReport& report, const PairingStudyTable& study, st
 
 // A group a setting, a bar a scene (and method).
 Chart bar_chart(const PairingReport& report, const PairingStudyTable& study, std::string_view suffix,
-                Value value) {
+                RowValue value) {
     Chart chart = framed(report, info(study.kind), suffix);
     for (const PairingPoint& point : study.points) {
         auto group = std::ranges::find(chart.groups, point.setting);

@@ -7,12 +7,12 @@
 namespace rtu::study {
 namespace {
 
-using Cells = std::vector<std::string>;
+using CsvCells = std::vector<std::string>;
 
 std::string number(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
 
-Cells run_names(std::string_view prefix) {
-    Cells cells;
+CsvCells run_names(std::string_view prefix) {
+    CsvCells cells;
     for (const char* name :
          {"rays", "hits", "node_visits", "box_tests", "pair_tests", "triangle_tests", "cycles", "mrps",
           "image_bytes", "l1_misses", "l2_misses", "dram_bytes", "bound_by", "bound_percent"}) {
@@ -21,9 +21,9 @@ Cells run_names(std::string_view prefix) {
     return cells;
 }
 
-Cells run_cells(const PairingRun& run) {
+CsvCells run_cells(const PairingRun& run) {
     const PartUse& bound = busiest(run.uses);
-    Cells cells;
+    CsvCells cells;
     for (const std::uint64_t count :
          {run.total.ray_count, run.total.hit_count, run.total.node_visits, run.total.box_tests,
           run.total.pair_tests, run.total.triangle_tests, run.total.cycles}) {
@@ -39,9 +39,9 @@ Cells run_cells(const PairingRun& run) {
 }
 
 // Empty for other methods.
-Cells compression_cells(const std::optional<model::CompressionCost>& cost) {
-    if (!cost) return Cells(6);
-    Cells cells;
+CsvCells compression_cells(const std::optional<model::CompressionCost>& cost) {
+    if (!cost) return CsvCells(6);
+    CsvCells cells;
     for (const std::uint64_t count : {cost->exact_candidates, cost->candidates, cost->wrong_candidates,
                                       cost->lost_candidates, cost->exact_pairs, cost->pairs}) {
         cells.push_back(fmt::format("{}", count));
@@ -49,10 +49,10 @@ Cells compression_cells(const std::optional<model::CompressionCost>& cost) {
     return cells;
 }
 
-void append(Cells& cells, const Cells& more) { cells.insert(cells.end(), more.begin(), more.end()); }
+void append(CsvCells& cells, const CsvCells& more) { cells.insert(cells.end(), more.begin(), more.end()); }
 
-Cells header() {
-    Cells cells{"study", "setting", "x", "scene", "method", "baseline"};
+CsvCells header() {
+    CsvCells cells{"study", "setting", "x", "scene", "method", "baseline"};
     for (const PairingColumn& column : pairing_columns()) {
         if (!column.is_host_time) cells.emplace_back(column.key);
     }
@@ -66,7 +66,7 @@ Cells header() {
 }
 
 // `where` is study, setting, x.
-Cells cells_of(Cells where, const PairingRow& row) {
+CsvCells cells_of(CsvCells where, const PairingRow& row) {
     append(where, {row.scene, row.method, row.baseline});
     for (const PairingColumn& column : pairing_columns()) {
         if (!column.is_host_time) where.push_back(number(column.value(row)));

@@ -42,7 +42,7 @@ Json json(const PairingRun& run) {
             {"use_percent", uses}};
 }
 
-Json published(const PairingRow& row) {
+Json published_json(const PairingRow& row) {
     if (row.published == nullptr) return nullptr;
     return {
         {"seconds", json(row.published->seconds)},
@@ -67,7 +67,7 @@ Json json(const PairingRow& row) {
     for (const PairingColumn& column : pairing_columns()) object[column.key] = json(column.value(row));
     object["old"] = json(row.before);
     object["new"] = json(row.after);
-    object["published"] = published(row);
+    object["published"] = published_json(row);
     object["compression"] = row.compression ? json(*row.compression) : Json(nullptr);
     return object;
 }

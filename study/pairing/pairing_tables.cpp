@@ -15,8 +15,6 @@ namespace {
 using Keys = std::span<const std::string_view>;
 using Cells = std::vector<std::string>;
 
-constexpr auto left = TextTable::Align::Left;
-
 constexpr auto paper_keys =
     std::to_array<std::string_view>({"seconds", "old_paired_percent", "new_paired_percent",
                                      "delta_box_percent", "delta_tri_percent", "delta_mrps_percent"});
@@ -29,7 +27,7 @@ constexpr auto published_keys =
 
 // The columns of these keys for every row, and below them an average a method.
 PairingTable keyed_table(const PairingReport& report, Keys keys) {
-    PairingTable table{{}, {}, {{"Scene", left}, {"Method", left}}, {}};
+    PairingTable table{{}, {}, {{"Scene", left_aligned}, {"Method", left_aligned}}, {}};
     for (const auto key : keys) table.columns.push_back({std::string(pairing_column(key).header)});
     const auto add = [&](const std::string& scene, const std::string& method, const auto& value) {
         Cells cells{scene, method};
@@ -58,9 +56,15 @@ PairingTable bound_table(const PairingReport& report) {
     PairingTable table;
     table.title = fmt::format("What bounds the machine, old / new (MRPS at {} MHz, use in % of the cycles)",
                               grouped(report.clock_mhz));
-    table.columns = {{"Scene", left},    {"Method", left},        {"MRPS\nold"},
-                     {"MRPS\nnew"},      {"Bound by\nold", left}, {"Bound by\nnew", left},
-                     {"Box\nold / new"}, {"Pair\nold / new"},     {"L2\nold / new"},
+    table.columns = {{"Scene", left_aligned},
+                     {"Method", left_aligned},
+                     {"MRPS\nold"},
+                     {"MRPS\nnew"},
+                     {"Bound by\nold", left_aligned},
+                     {"Bound by\nnew", left_aligned},
+                     {"Box\nold / new"},
+                     {"Pair\nold / new"},
+                     {"L2\nold / new"},
                      {"DRAM\nold / new"}};
     for (const PairingRow& row : report.rows) {
         const auto uses = [&row](std::string_view part) {
@@ -79,9 +83,9 @@ PairingTable bound_table(const PairingReport& report) {
 PairingTable compression_table(const PairingReport& report) {
     PairingTable table;
     table.title = "What 16-byte half-edges cost (edge_bbsa_compressed beside edge_bbsa)";
-    table.columns = {{"Scene", left},       {"Candidates\nexact"}, {"Candidates\ncompressed"},
-                     {"Wrong\ncandidates"}, {"Lost\ncandidates"},  {"Pairs\nexact"},
-                     {"Pairs\ncompressed"}, {"Pairs\nchange"}};
+    table.columns = {{"Scene", left_aligned}, {"Candidates\nexact"}, {"Candidates\ncompressed"},
+                     {"Wrong\ncandidates"},   {"Lost\ncandidates"},  {"Pairs\nexact"},
+                     {"Pairs\ncompressed"},   {"Pairs\nchange"}};
     for (const PairingRow& row : report.rows) {
         if (!row.compression) continue;
         const model::CompressionCost& cost = *row.compression;
@@ -109,7 +113,7 @@ double published_value(const PublishedRow& row, std::string_view key) {
 PairingTable published_table(const PairingReport& report) {
     PairingTable table{"Published beside ours [AF: Aman, Fenney, \"Fast Triangle Pairing for Ray Tracing\"]",
                        {},
-                       {{"Scene", left}, {"Values", left}},
+                       {{"Scene", left_aligned}, {"Values", left_aligned}},
                        {}};
     for (const auto key : published_keys) table.columns.push_back({std::string(pairing_column(key).header)});
     for (const PairingRow& row : report.rows) {
@@ -151,9 +155,9 @@ PairingTable study_table(const PairingReport& report, const PairingStudyTable& s
     const PairingStudyInfo& what = info(study.kind);
     PairingTable table;
     table.title = fmt::format("Study {}: {} (change against {})", what.name, what.meaning, report.baseline);
-    table.columns = {{"Scene", left},
-                     {"Setting", left},
-                     {"Method", left},
+    table.columns = {{"Scene", left_aligned},
+                     {"Setting", left_aligned},
+                     {"Method", left_aligned},
                      {"Pairs\nold %"},
                      {"Pairs\nnew %"},
                      {"Box\n%"},
@@ -161,8 +165,8 @@ PairingTable study_table(const PairingReport& report, const PairingStudyTable& s
                      {"MRPS\n%"},
                      {"MRPS\nold"},
                      {"MRPS\nnew"},
-                     {"Bound by\nold", left},
-                     {"Bound by\nnew", left}};
+                     {"Bound by\nold", left_aligned},
+                     {"Bound by\nnew", left_aligned}};
     std::string last_scene;
     for (const auto& [setting, x, row] : study.points) {
         if (!last_scene.empty() && row.scene != last_scene) table.rows.emplace_back();

@@ -10,7 +10,6 @@ namespace rtu::study {
 namespace {
 
 using Column = TextTable::Column;
-constexpr auto left = TextTable::Align::Left;
 
 std::string per_million(std::uint64_t count, std::uint64_t of) {
     return of == 0 ? "-" : grouped(std::uint64_t(std::llround(1e6 * double(count) / double(of))));
@@ -78,7 +77,7 @@ StudyTable method_table(const PrecisionReport& report, const PrecisionAnswer& sc
     StudyTable table{
         .title = "The narrowest format of each method that is exact enough, and every wider one too",
         .note = "",
-        .columns = {{"Method", left}, {"Format", left}, {"Bits"}, {"Area"}},
+        .columns = {{"Method", left_aligned}, {"Format", left_aligned}, {"Bits"}, {"Area"}},
         .rows = {}};
     table.columns.insert(table.columns.end(), measures.begin(), measures.end());
     table.columns.push_back({"One bit less\nwrong per M"});
@@ -104,7 +103,7 @@ StudyTable ladder_table(const PrecisionReport& report, const PrecisionRow& answe
                      .note =
                          "Exact, wrong: rays that are wrong because ray and triangles were rounded to the "
                          "format, whatever the arithmetic.",
-                     .columns = {{"Format", left}, {"Bits"}, {"Area"}},
+                     .columns = {{"Format", left_aligned}, {"Bits"}, {"Area"}},
                      .rows = {}};
     table.columns.insert(table.columns.end(), measures.begin(), measures.end());
     table.columns.push_back({"t max\nulp"});
@@ -131,7 +130,7 @@ StudyTable filter_table(const PrecisionReport& report, const PrecisionAnswer& sc
         .note =
             "False positives: exactly missed tests that are passed on, of all missed. A filter must have "
             "no false negatives.",
-        .columns = {{"Format", left},
+        .columns = {{"Format", left_aligned},
                     {"Tests"},
                     {"Hits\n%"},
                     {"Passed\n%"},

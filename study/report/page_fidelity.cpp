@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 // On a logarithmic axis there is no 0.
 constexpr double least_shown_percent = 0.01;
 
-PageChart error_chart(const Json& rows) {
+PageChart level_error_chart(const Json& rows) {
     PageChart chart;
     chart.kind = PageChart::Kind::Points;
     chart.title = "Error against speed";
@@ -47,7 +47,7 @@ PageChart error_chart(const Json& rows) {
     return chart;
 }
 
-PageChart mrps_chart(const Json& rows) {
+PageChart level_mrps_chart(const Json& rows) {
     PageChart chart;
     chart.title = "MRPS by level of fidelity";
     chart.note = "Beside the table: the interval that the level itself states.";
@@ -105,9 +105,9 @@ PageSection fidelity_section(const Json& json) {
     section.note =
         "What a level of fidelity is off by, and how much host time it saves, against simulating every ray.";
     section.findings = level_findings(rows);
-    PageChart errors = error_chart(rows);
+    PageChart errors = level_error_chart(rows);
     if (!errors.rows.empty()) section.charts.push_back(std::move(errors));
-    section.charts.push_back(mrps_chart(rows));
+    section.charts.push_back(level_mrps_chart(rows));
     return section;
 }
 

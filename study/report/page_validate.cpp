@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-PageChart error_chart(const Json& json) {
+PageChart cycle_error_chart(const Json& json) {
     PageChart chart;
     chart.title = "Error of the simulator's cycles";
     chart.note = "Against the cycles of the RTL on the same rays; hits and counts must be the same.";
@@ -64,7 +64,7 @@ PageSection validate_section(const Json& json) {
                          summary.at("rows").dump(), number_at(summary, "median_percent"),
                          summary.at("within_2_percent").dump(), number_at(summary, "speedup"))});
     }
-    section.charts = {error_chart(json), rate_chart(json)};
+    section.charts = {cycle_error_chart(json), rate_chart(json)};
     return section;
 }
 

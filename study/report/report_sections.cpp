@@ -7,8 +7,6 @@
 namespace rtu::study {
 namespace {
 
-constexpr auto left = TextTable::Align::Left;
-
 bool has(const std::vector<CounterValue>& counters, std::string_view name) {
     return std::any_of(counters.begin(), counters.end(),
                        [&](const CounterValue& c) { return c.name == name; });
@@ -44,7 +42,7 @@ std::vector<std::string> workload_row(const WorkloadReport& workload, std::uint3
 }  // namespace
 
 std::string workload_table(const SceneReport& report) {
-    TextTable table({{"Workload", left},
+    TextTable table({{"Workload", left_aligned},
                      {"Rays"},
                      {"Hits\n%"},
                      {"Nodes\nper ray"},
@@ -61,8 +59,12 @@ std::string workload_table(const SceneReport& report) {
 }
 
 std::string unit_table(const SceneReport& report) {
-    TextTable table(
-        {{"Workload", left}, {"Unit", left}, {"Busy\n%"}, {"Starved\n%"}, {"Blocked\n%"}, {"Idle\n%"}});
+    TextTable table({{"Workload", left_aligned},
+                     {"Unit", left_aligned},
+                     {"Busy\n%"},
+                     {"Starved\n%"},
+                     {"Blocked\n%"},
+                     {"Idle\n%"}});
     for (const WorkloadReport& workload : report.workloads) {
         std::string label = workload.name;
         for (const auto* units : {&workload.units, &workload.memory}) {
@@ -78,7 +80,7 @@ std::string unit_table(const SceneReport& report) {
 }
 
 std::string event_table(const SceneReport& report) {
-    TextTable table({{"Workload", left},
+    TextTable table({{"Workload", left_aligned},
                      {"In flight\nrays, mean"},
                      {"Spilled\nentries"},
                      {"Reloaded\nentries"},
@@ -97,8 +99,8 @@ std::string event_table(const SceneReport& report) {
 }
 
 std::string cache_table(const SceneReport& report) {
-    TextTable table({{"Workload", left},
-                     {"Cache", left},
+    TextTable table({{"Workload", left_aligned},
+                     {"Cache", left_aligned},
                      {"Line reads"},
                      {"Hit\n%"},
                      {"Merged\n%"},
@@ -132,8 +134,8 @@ std::string_view main_memory_title(const SceneReport& report) {
 }
 
 std::string main_memory_table(const SceneReport& report) {
-    TextTable table({{"Workload", left},
-                     {"Memory", left},
+    TextTable table({{"Workload", left_aligned},
+                     {"Memory", left_aligned},
                      {"Reads"},
                      {"Writes"},
                      {"Row hits\n%"},

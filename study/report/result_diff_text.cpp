@@ -10,7 +10,6 @@
 namespace rtu::study {
 namespace {
 
-constexpr auto left = TextTable::Align::Left;
 constexpr std::size_t most_rows = 40;
 
 std::string percent_text(double percent) {
@@ -35,8 +34,12 @@ std::string change_table(const std::vector<ResultChange>& all, double tolerance_
         const bool is_of_unit = change->name.find('.') != std::string::npos;
         return is_of_unit ? std::pair(1, -std::abs(change->percent())) : std::pair(0, 0.0);
     });
-    TextTable table(
-        {{"Row", left}, {"Number", left}, {"First"}, {"Second"}, {"Change\n%"}, {"Significant", left}});
+    TextTable table({{"Row", left_aligned},
+                     {"Number", left_aligned},
+                     {"First"},
+                     {"Second"},
+                     {"Change\n%"},
+                     {"Significant", left_aligned}});
     for (std::size_t i = 0; i < std::min(changes.size(), most_rows); ++i) {
         const ResultChange& change = *changes[i];
         table.add_row({change.row, change.name, number_text(change.before), number_text(change.after),
@@ -50,7 +53,7 @@ std::string change_table(const std::vector<ResultChange>& all, double tolerance_
 }
 
 std::string trend_table(const std::vector<ResultTrend>& trends) {
-    TextTable table({{"Number", left},
+    TextTable table({{"Number", left_aligned},
                      {"Rows"},
                      {"Up"},
                      {"Down"},
@@ -58,7 +61,7 @@ std::string trend_table(const std::vector<ResultTrend>& trends) {
                      {"Mean\n%"},
                      {"Sign test\np"},
                      {"Largest\n%"},
-                     {"in", left}});
+                     {"in", left_aligned}});
     for (const ResultTrend& trend : trends) {
         table.add_row({trend.name, grouped(trend.compared), grouped(trend.up), grouped(trend.down),
                        grouped(trend.significant), percent_text(trend.mean_percent),

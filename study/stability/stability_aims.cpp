@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "model/mesh_builder.hpp"
 #include "model/sampling.hpp"
+#include "model/vec3.hpp"
 #include "study/stability/stability_probes.hpp"
 
 namespace rtu::study {
@@ -17,7 +17,7 @@ using model::Ray;
 using model::Vec3;
 using model::methods::Corners;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using model::infinity;
 
 const Corners& any_triangle(RandomStream& random, const Surface& surface) {
     return surface.corners[draw_below(random, std::uint32_t(surface.corners.size()))];

@@ -3,11 +3,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "model/sampling.hpp"
 #include "model/slab_test.hpp"
 #include "model/surface.hpp"
+#include "model/vec3.hpp"
 #include "study/stability/stability_probes.hpp"
 
 namespace rtu::study {
@@ -20,7 +20,7 @@ using model::methods::Corners;
 using model::methods::TestHit;
 using Answer = std::optional<TestHit>;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using model::infinity;
 
 // An experiment that asks each subject for itself.
 class PerSubject : public Experiment {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/sampling.hpp"
+#include "model/vec3.hpp"
 
 namespace rtu::study {
 
@@ -15,7 +16,7 @@ using model::methods::Corners;
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using model::infinity;
 
 Vec3 mix(const Corners& t, float u, float v) { return t[0] * (1 - u - v) + t[1] * u + t[2] * v; }
 

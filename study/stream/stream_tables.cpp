@@ -9,8 +9,6 @@
 namespace rtu::study {
 namespace {
 
-constexpr auto left = TextTable::Align::Left;
-
 std::string mega(double per_second) {
     const double value = per_second / 1e6;
     return value >= 100 ? fixed(value, 1) : fixed(value, value >= 1 ? 2 : 4);
@@ -54,9 +52,17 @@ std::vector<const StreamRow*> best_rows(const StreamReport& report) {
 
 StudyTable best_table(const StreamReport& report) {
     StudyTable table{"Each mode on each link with its best batch", {}, {}, {}};
-    table.columns = {{"Mode", left},   {"Link", left}, {"Batch\ntests"}, {"Rate"},
-                     {"no link"},      {"MRPS"},       {"no link"},      {"Machine\n%"},
-                     {"Read\nback %"}, {"Upload\n%"},  {"Limit", left}};
+    table.columns = {{"Mode", left_aligned},
+                     {"Link", left_aligned},
+                     {"Batch\ntests"},
+                     {"Rate"},
+                     {"no link"},
+                     {"MRPS"},
+                     {"no link"},
+                     {"Machine\n%"},
+                     {"Read\nback %"},
+                     {"Upload\n%"},
+                     {"Limit", left_aligned}};
     for (const StreamRow* row : best_rows(report)) table.rows.push_back(best_cells(*row));
     table.note =
         "  Rates in million tests of single triangles a second. A run's time is the machine's as long as a\n"
@@ -67,7 +73,7 @@ StudyTable best_table(const StreamReport& report) {
 StudyTable balance_table(const StreamReport& report) {
     StudyTable table{
         "The batch, in tests, from which on the testers are the limit and not the link", {}, {}, {}};
-    table.columns = {{"Mode", left}};
+    table.columns = {{"Mode", left_aligned}};
     for (const std::string& link : report.links) table.columns.push_back({link});
     for (const StreamBalance& balance : report.balances) {
         if (table.rows.empty() || table.rows.back().front() != balance.mode)
@@ -97,8 +103,9 @@ StudyTable rate_table(const StreamReport& report, const std::string& mode) {
 StudyTable published_table(const StreamReport& report) {
     StudyTable table{
         "As published by Robert and Schweri: preset nv35, link agp_8x, lone triangles", {}, {}, {}};
-    table.columns = {{"Setup", left}, {"Published\nMtests/s"}, {"Here\nMtests/s"}, {"Here /\npublished"},
-                     {"Machine\n%"},  {"Read-back\n%"},        {"Upload\n%"},      {"Limit", left}};
+    table.columns = {{"Setup", left_aligned}, {"Published\nMtests/s"}, {"Here\nMtests/s"},
+                     {"Here /\npublished"},   {"Machine\n%"},          {"Read-back\n%"},
+                     {"Upload\n%"},           {"Limit", left_aligned}};
     for (const PublishedStream& stream : report.published) {
         const StreamRow& row = stream.row;
         const double published = stream.published_tests_per_second;

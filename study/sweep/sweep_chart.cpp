@@ -12,9 +12,9 @@
 namespace rtu::study {
 namespace {
 
-constexpr std::array measures{"mrps",          "mrps_per_mgate",  "mgates",           "sram_mbits",
-                              "bytes_per_ray", "box_utilisation", "pair_utilisation", "l1_hit_percent",
-                              "l2_hit_percent"};
+constexpr std::array chart_measures{"mrps",          "mrps_per_mgate",  "mgates",           "sram_mbits",
+                                    "bytes_per_ray", "box_utilisation", "pair_utilisation", "l1_hit_percent",
+                                    "l2_hit_percent"};
 constexpr std::array plain_columns{"preset", "pairing", "scene", "workload"};
 
 bool is_file_name(const std::string& text) {
@@ -73,9 +73,9 @@ class ChartParser {
         const toml::node* y = table_.get("y");
         if (y == nullptr) return;
         chart_.y = reader_.text(*y, "a measure");
-        if (std::ranges::find(measures, chart_.y) == measures.end()) {
-            throw Error("{}: expected one of {}, got '{}'", reader_.place(*y), fmt::join(measures, ", "),
-                        model::one_line(chart_.y));
+        if (std::ranges::find(chart_measures, chart_.y) == chart_measures.end()) {
+            throw Error("{}: expected one of {}, got '{}'", reader_.place(*y),
+                        fmt::join(chart_measures, ", "), model::one_line(chart_.y));
         }
     }
 

@@ -19,9 +19,10 @@ bool is_name_key(const sim::ConfigKey& key) {
 }
 
 // Reads a condition from left to right; one character decides what comes next.
-class Parser {
+class ConstraintParser {
   public:
-    Parser(std::string_view text, const std::string& place) : text_(text), rest_(text), place_(place) {}
+    ConstraintParser(std::string_view text, const std::string& place)
+        : text_(text), rest_(text), place_(place) {}
 
     std::function<bool(const sim::Config&)> condition() {
         if (const sim::ConfigKey* key = peek_name_key()) return choice(*key);
@@ -154,6 +155,6 @@ class Parser {
 }  // namespace
 
 SweepConstraint::SweepConstraint(std::string_view text, const std::string& place)
-    : condition_(Parser(text, place).condition()) {}
+    : condition_(ConstraintParser(text, place).condition()) {}
 
 }  // namespace rtu::study

@@ -36,9 +36,9 @@ auto at(const std::string& place, F f) {
     }
 }
 
-class Parser {
+class SweepFileParser {
   public:
-    Parser(std::string_view text, const fs::path& path, const fs::path& scenes)
+    SweepFileParser(std::string_view text, const fs::path& path, const fs::path& scenes)
         : reader_(text, path.string()), path_(path), folder_(path.parent_path()), scenes_(scenes) {}
 
     SweepFile run() {
@@ -291,7 +291,7 @@ class Parser {
 }  // namespace
 
 SweepFile parse_sweep(std::string_view text, const fs::path& path, const fs::path& scenes) {
-    SweepFile file = Parser(text, path, scenes).run();
+    SweepFile file = SweepFileParser(text, path, scenes).run();
     file.text = text;
     return file;
 }

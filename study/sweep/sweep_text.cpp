@@ -15,7 +15,6 @@
 namespace rtu::study {
 namespace {
 
-constexpr auto left = TextTable::Align::Left;
 constexpr std::size_t most_rows = 30;
 constexpr std::size_t most_failures = 10;
 
@@ -40,8 +39,8 @@ class DesignColumns {
         }
     }
     void add_columns(std::vector<TextTable::Column>& columns) const {
-        if (has_preset_) columns.push_back({"Preset", left});
-        if (has_pairing_) columns.push_back({"Pairing", left});
+        if (has_preset_) columns.push_back({"Preset", left_aligned});
+        if (has_pairing_) columns.push_back({"Pairing", left_aligned});
         for (const sim::ConfigKey* key : keys_) columns.push_back({two_lines(key->name)});
     }
     void add_cells(const SweepDesign& design, std::vector<std::string>& cells) const {
@@ -81,7 +80,7 @@ bool is_whole(double value) { return std::abs(value - std::round(value)) <= 1e-9
 
 std::string front_table(const SweepPlan& plan, const std::vector<RatedDesign>& front) {
     const DesignColumns varying(plan);
-    std::vector<TextTable::Column> columns{{"Design", left}};
+    std::vector<TextTable::Column> columns{{"Design", left_aligned}};
     for (const SweepObjective& objective : plan.file.objectives) columns.push_back({objective.name()});
     varying.add_columns(columns);
     std::map<std::string, const SweepDesign*> designs;
@@ -154,7 +153,7 @@ std::string sweep_text(const SweepPlan& plan, const SweepOutcome& outcome, const
 
 std::string sweep_plan_text(const SweepPlan& plan, const SweepEstimate& estimate) {
     const DesignColumns varying(plan);
-    std::vector<TextTable::Column> columns{{"Point", left}, {"Scene", left}};
+    std::vector<TextTable::Column> columns{{"Point", left_aligned}, {"Scene", left_aligned}};
     varying.add_columns(columns);
     TextTable table(columns);
     for (std::size_t i = 0; i < std::min(plan.scenes.size() * plan.designs.size(), most_rows); ++i) {

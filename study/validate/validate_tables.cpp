@@ -9,8 +9,6 @@
 namespace rtu::study {
 namespace {
 
-constexpr auto left = TextTable::Align::Left;
-
 std::vector<ValidateRow> rows_of(const ValidateReport& report, const std::string& config,
                                  const std::string& scene = {}) {
     std::vector<ValidateRow> rows;
@@ -32,14 +30,14 @@ StudyTable config_table(const ValidateReport& report) {
         .note =
             "Worst and median of the absolute errors; base: docs/validation.md. Rays a second are of "
             "the host.",
-        .columns = {{"Machine", left},
+        .columns = {{"Machine", left_aligned},
                     {"Rows"},
                     {"Worst\n%"},
                     {"Median\n%"},
                     {"RTL\nrays/s"},
                     {"Simulator\nrays/s"},
                     {"Faster\ntimes"},
-                    {"Differs from base in", left}},
+                    {"Differs from base in", left_aligned}},
         .rows = {}};
     for (const ValidateConfig& config : report.configs) {
         const std::vector<ValidateRow> rows = rows_of(report, config.name);
@@ -65,9 +63,9 @@ StudyTable row_table(const ValidateReport& report) {
         .note =
             "Error: (simulator - RTL) / RTL cycles. Open sides: triangles that the first pass could "
             "neither reject nor prove hit.",
-        .columns = {{"Scene", left},
-                    {"Machine", left},
-                    {"Workload", left},
+        .columns = {{"Scene", left_aligned},
+                    {"Machine", left_aligned},
+                    {"Workload", left_aligned},
                     {"Rays"},
                     {"RTL\ncycles"},
                     {"Simulator\ncycles"},

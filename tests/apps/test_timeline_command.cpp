@@ -11,7 +11,7 @@
 namespace rtu::test {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -45,7 +45,7 @@ void expect_nested(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& s
 TEST_F(TimelineCommand, WritesATraceAsTheFormatHasIt) {
     const ProcessResult result = timeline({"--from", "300", "--cycles", "400", "--json", "-"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    const json trace = json::parse(result.out);
+    const Json trace = Json::parse(result.out);
     EXPECT_EQ(trace["otherData"]["from_cycle"], 300);
     std::map<int, std::string> processes;
     std::set<std::pair<int, int>> threads;
@@ -53,7 +53,7 @@ TEST_F(TimelineCommand, WritesATraceAsTheFormatHasIt) {
     std::map<std::pair<int, std::uint64_t>, std::uint64_t> open;
     std::uint64_t last = 0;
     std::map<std::string, int> phases;
-    for (const json& event : trace["traceEvents"]) {
+    for (const Json& event : trace["traceEvents"]) {
         const std::string phase = event.at("ph");
         const std::pair<int, int> thread{event.at("pid"), event.at("tid")};
         ASSERT_TRUE(event.at("name").is_string());

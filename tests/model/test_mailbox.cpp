@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <deque>
-#include <limits>
 #include <set>
 
 #include "meshes.hpp"
 #include "model/all_hits.hpp"
 #include "model/pair_test.hpp"
 #include "model/traversal.hpp"
+#include "model/vec3.hpp"
 
 namespace rtu::model {
 namespace {
@@ -16,8 +16,7 @@ namespace {
 using test::image_of;
 using test::Random;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr BvhOptions spatial{.width = 4, .splits = SplitKind::Spatial, .split_budget_percent = 200};
+constexpr BvhOptions with_splits{.width = 4, .splits = SplitKind::Spatial, .split_budget_percent = 200};
 
 NodeRef leaf_of(std::uint32_t pair) { return NodeRef::leaf(std::uint64_t(pair) * image_block_bytes, 1); }
 
@@ -96,7 +95,7 @@ Ray random_ray(Random& random, const TriangleMesh& mesh, int i) {
 }
 
 // Every pair against the ray, without a tree.
-std::vector<Hit> brute_force(const MemoryImage& image, const Ray& ray) {
+std::vector<Hit> all_hits_by_brute_force(const MemoryImage& image, const Ray& ray) {
     std::vector<Hit> hits;
     const RaySetup setup = make_ray_setup(ray, image.bounds);
     const std::uint64_t first = image.node_count * image.node_bytes();
@@ -148,7 +147,7 @@ TEST(MailboxTraversal, ChangesNoHitWhateverTheSplits) {
         TraversalStack stack;
         for (int i = 0; i < 300; ++i) {
             const Ray ray = random_ray(random, mesh, i);
-            const std::vector<Hit> all = brute_force(plain, ray);
+            const std::vector<Hit> all = all_hits_by_brute_force(plain, ray);
             const auto closest = all.empty() ? std::nullopt : std::optional(all.front());
             ASSERT_EQ(trace(plain, ray, RayKind::ClosestHit), closest);
             for (const MailboxOptions& options : all_mailboxes()) {
@@ -165,7 +164,7 @@ TEST(MailboxTraversal, ChangesNoHitWhateverTheSplits) {
 
 TEST(MailboxTraversal, CountsAsTheOrderedListDoes) {
     const TriangleMesh mesh = test::needles(1'000, 5, {0.5F, 0.5F, 0.5F});
-    const MemoryImage image = image_of(mesh, spatial);
+    const MemoryImage image = image_of(mesh, with_splits);
     TraversalStack stack;
     std::uint64_t hits = 0, duplicates = 0;
     for (const RayKind kind : {RayKind::ClosestHit, RayKind::AnyHit}) {
@@ -204,7 +203,7 @@ TEST(MailboxTraversal, SavesNothingWhereEveryPairIsInOneLeaf) {
 
 TEST(AllHitsOfARay, AreEachToldOnceWhereDuplicatesAreForbidden) {
     const TriangleMesh mesh = test::needles(600, 10, {0.5F, 0.5F, 0.5F});
-    const MemoryImage split = image_of(mesh, spatial), plain = image_of(mesh);
+    const MemoryImage split = image_of(mesh, with_splits), plain = image_of(mesh);
     Random random(11);
     std::uint64_t duplicates = 0;
     const auto sorted = [](std::vector<Hit> hits) {
@@ -213,7 +212,7 @@ TEST(AllHitsOfARay, AreEachToldOnceWhereDuplicatesAreForbidden) {
     };
     for (int i = 0; i < 300; ++i) {
         const Ray ray = random_ray(random, mesh, i);
-        const std::vector<Hit> expected = brute_force(plain, ray);
+        const std::vector<Hit> expected = all_hits_by_brute_force(plain, ray);
         for (const MailboxOptions& options : all_mailboxes()) {
             const AllHits once = find_all_hits(split, ray, options, DuplicateRule::Forbidden);
             ASSERT_EQ(sorted(once.hits), expected);

@@ -8,14 +8,10 @@
 
 #include "model/methods/kernel.hpp"
 #include "model/random.hpp"
+#include "tests/model/random_points.hpp"
 
 namespace rtu::model::methods {
 namespace {
-
-Vec3 random_point(RandomStream& random) {
-    const float x = random.next(), y = random.next(), z = random.next();
-    return {x, y, z};
-}
 
 // Pairs (a, b, c), (a, c, d) in the unit cube.
 std::vector<Corners> random_triangles(std::uint32_t pairs) {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -10,24 +9,19 @@
 #include "model/methods/early_exits.hpp"
 #include "model/methods/method.hpp"
 #include "model/random.hpp"
+#include "model/vec3.hpp"
+#include "tests/model/random_points.hpp"
 
 namespace rtu::model::methods {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-struct Case {
+struct TriangleCase {
     Ray ray;
     Corners triangle;
 };
 
-Vec3 random_point(RandomStream& random) {
-    const float x = random.next(), y = random.next(), z = random.next();
-    return {x, y, z};
-}
-
 // A ray between two points of the unit cube and a triangle in it, of which a good part is hit.
-Case random_case(std::uint32_t index) {
+TriangleCase random_case(std::uint32_t index) {
     RandomStream random(7, 0, index);
     const Corners triangle{random_point(random), random_point(random), random_point(random)};
     const Vec3 origin = random_point(random);
@@ -38,7 +32,7 @@ Case random_case(std::uint32_t index) {
 }
 
 // Far from every edge and not grazing, so that no method's rounding can decide otherwise.
-bool is_clear(const Case& c) {
+bool is_clear(const TriangleCase& c) {
     const Vec3 ab = c.triangle[1] - c.triangle[0], ac = c.triangle[2] - c.triangle[0];
     const Vec3 n = cross(ab, ac);
     if (length(n) < 0.01F || std::abs(dot(normalized(n), normalized(c.ray.direction))) < 0.05F) return false;
@@ -58,7 +52,7 @@ TEST_P(EveryMethod, AgreesWithTheExactTestAwayFromEdges) {
     for (const Method& method : all_methods(GetParam())) {
         int hits = 0, misses = 0;
         for (std::uint32_t i = 0; i < 4000; ++i) {
-            const Case c = random_case(i);
+            const TriangleCase c = random_case(i);
             if (!is_clear(c)) continue;
             const auto expected = exact.test(c.ray, c.triangle);
             if (method.info.is_one_sided &&
@@ -111,7 +105,7 @@ TEST(HavelHeroutSse4, GivesWhatTheScalarFormGivesButForRounding) {
     if (sse4 == nullptr) GTEST_SKIP() << "the processor has no SSE4.1";
     int hits = 0, differing = 0;
     for (std::uint32_t i = 0; i < 4000; ++i) {
-        const Case c = random_case(i);
+        const TriangleCase c = random_case(i);
         const auto got = sse4->test(c.ray, c.triangle), expected = scalar->test(c.ray, c.triangle);
         differing += int(got.has_value() != expected.has_value());
         if (!got || !expected || !is_clear(c)) continue;

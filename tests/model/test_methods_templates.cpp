@@ -4,17 +4,15 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string_view>
 #include <type_traits>
 
 #include "model/methods/single_call-inl.hpp"
 #include "model/random.hpp"
+#include "model/vec3.hpp"
 
 namespace rtu::model::methods::RTU_TARGET {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 template <class... Methods, class Check>
 void for_each(MethodList<Methods...>, Check check) {
@@ -24,7 +22,7 @@ void for_each(MethodList<Methods...>, Check check) {
 template <class M>
 concept HasPair = M::has_pair;
 
-Vector<float> random_point(RandomStream& random) {
+Vector<float> random_vector(RandomStream& random) {
     const float x = random.next(), y = random.next(), z = random.next();
     return {{x, y, z}};
 }
@@ -37,7 +35,7 @@ struct RayCase {
 // At a point of the triangle's plane, mostly in it or beside it, sometimes at a corner or on an edge.
 RayCase random_ray(RandomStream& random, const Vector<float>& a, const Vector<float>& b,
                    const Vector<float>& c) {
-    const Vector<float> origin = random_point(random);
+    const Vector<float> origin = random_vector(random);
     const float s = random.next(), r = random.next(), choice = random.next();
     const float u = choice < 0.1F ? 0 : 1.5F * s - 0.25F, v = choice < 0.05F ? 1 : 1.5F * r - 0.25F;
     const Vector<float> aim = a * (1 - u - v) + b * u + c * v;
@@ -65,8 +63,8 @@ void expect_pairs_to_give_what_triangles_give() {
     int first_hits = 0, second_hits = 0, both_hit = 0;
     for (std::uint32_t i = 0; i < 4000; ++i) {
         RandomStream random(12, 0, i);
-        const auto a = random_point(random), b = random_point(random), c = random_point(random);
-        const auto d = random_point(random);
+        const auto a = random_vector(random), b = random_vector(random), c = random_vector(random);
+        const auto d = random_vector(random);
         const RayCase ray = i % 2 == 0 ? random_ray(random, a, b, c) : random_ray(random, a, c, d);
         const Axis axis = axis_of_ray(M::info, ray.direction);
         const auto kept = M::prepare(ray.origin, ray.direction, axis);
@@ -108,8 +106,8 @@ void expect_the_second_to_be_near_its_triangle_alone() {
     int hits = 0, differing_decisions = 0;
     for (std::uint32_t i = 0; i < 4000; ++i) {
         RandomStream random(13, 0, i);
-        const auto a = random_point(random), b = random_point(random), c = random_point(random);
-        const auto d = random_point(random);
+        const auto a = random_vector(random), b = random_vector(random), c = random_vector(random);
+        const auto d = random_vector(random);
         const RayCase ray = random_ray(random, a, c, d);
         const auto kept = M::prepare(ray.origin, ray.direction, Axis{});
         const auto got = M::test_pair(kept, ray.interval, M::store_pair(a, b, c, d, Axis{}), Axis{}).second;
@@ -163,7 +161,7 @@ TEST(MethodTemplates, TakeShevtsovsAxisOrthogonalPathWithoutChangingTheResult) {
     int hits = 0;
     for (std::uint32_t i = 0; i < 2000; ++i) {
         RandomStream random(14, 0, i);
-        auto a = random_point(random), b = random_point(random), c = random_point(random);
+        auto a = random_vector(random), b = random_vector(random), c = random_vector(random);
         const int k = int(i % 3);
         b.c[k] = c.c[k] = a.c[k];
         const RayCase ray = random_ray(random, a, b, c);

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "model/methods/method.hpp"
+#include "model/vec3.hpp"
 #include "tests/model/meshes.hpp"
 
 namespace rtu::model::methods {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 std::vector<Corners> triangles_of(const TriangleMesh& mesh) {
     std::vector<Corners> triangles;

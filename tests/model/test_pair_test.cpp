@@ -8,13 +8,12 @@
 #include "meshes.hpp"
 #include "model/pair_test.hpp"
 #include "model/ray_setup.hpp"
+#include "model/vec3.hpp"
 
 namespace rtu::model {
 namespace {
 
 using test::Random;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 LeafPair lone(const TriangleMesh& mesh, std::uint32_t id) {
     const Triangle& t = mesh.triangles[id];
@@ -176,7 +175,7 @@ TEST(PairTest, AxisAlignedRaysLeaveAGridBoxExactlyOnce) {
 }
 
 // How a ray's parts are drawn for the comparison with rational arithmetic.
-struct Case {
+struct PlacedTriangle {
     const char* name;
     float offset;    // of everything from the coordinate system's origin
     float width;     // of the triangle across its longest side
@@ -184,9 +183,9 @@ struct Case {
     bool is_aimed_at_edge;
 };
 
-class AgainstRationalArithmetic : public testing::TestWithParam<Case> {};
+class AgainstRationalArithmetic : public testing::TestWithParam<PlacedTriangle> {};
 
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+std::ostream& operator<<(std::ostream& out, const PlacedTriangle& c) { return out << c.name; }
 
 TEST_P(AgainstRationalArithmetic, DecidesAndMeasuresTheSame) {
     const auto [name, offset, width, distance, is_aimed_at_edge] = GetParam();
@@ -224,13 +223,14 @@ TEST_P(AgainstRationalArithmetic, DecidesAndMeasuresTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, AgainstRationalArithmetic,
-                         testing::Values(Case{"Anywhere", 0, 1, 3, false}, Case{"AtTheEdge", 0, 1, 3, true},
-                                         Case{"FarAway", 1e6F, 1, 3, true},
-                                         Case{"Needles", 0, 1e-4F, 3, true},
-                                         Case{"FarNeedles", 1e4F, 1e-3F, 3, true},
-                                         Case{"FromADistance", 0, 1, 0x1p20F, true},
-                                         Case{"OffTheSurface", 0, 1, 0x1p-30F, false},
-                                         Case{"OffNeedles", 4, 0x1p-12F, 0x1p-24F, false}),
+                         testing::Values(PlacedTriangle{"Anywhere", 0, 1, 3, false},
+                                         PlacedTriangle{"AtTheEdge", 0, 1, 3, true},
+                                         PlacedTriangle{"FarAway", 1e6F, 1, 3, true},
+                                         PlacedTriangle{"Needles", 0, 1e-4F, 3, true},
+                                         PlacedTriangle{"FarNeedles", 1e4F, 1e-3F, 3, true},
+                                         PlacedTriangle{"FromADistance", 0, 1, 0x1p20F, true},
+                                         PlacedTriangle{"OffTheSurface", 0, 1, 0x1p-30F, false},
+                                         PlacedTriangle{"OffNeedles", 4, 0x1p-12F, 0x1p-24F, false}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(PairTest, NeverHitsADegenerateTriangle) {

@@ -15,7 +15,7 @@ namespace {
 using namespace rtu::model;
 
 constexpr PairingMethod none{PairingKind::None, 0};
-constexpr PairingMethod edge_bbsa{PairingKind::EdgeBbsa, 0};
+constexpr PairingMethod by_edge_bbsa{PairingKind::EdgeBbsa, 0};
 
 PairingMethod window(std::uint32_t n) { return {PairingKind::Window, n}; }
 
@@ -27,7 +27,7 @@ TEST_P(PairingOfChaos, IsValidAndEqualsTheReference) {
         const TriangleMesh mesh = chaotic_mesh(seed);
         const std::size_t count = mesh.triangles.size();
         for (const EdgeIdentity identity : identities) {
-            const Pairing best = pair_triangles(mesh, edge_bbsa, identity);
+            const Pairing best = pair_triangles(mesh, by_edge_bbsa, identity);
             expect_valid(mesh, best, identity);
             EXPECT_EQ(partners_of(best, count), reference_edge_bbsa(mesh, identity));
             for (const std::uint32_t n : {2U, 3U, 17U, max_pairing_window}) {
@@ -44,7 +44,7 @@ TEST(Pairing, OfAShuffledSheetEqualsTheReference) {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         const TriangleMesh mesh = split_sheet(20, seed);
         for (const EdgeIdentity identity : identities) {
-            const Pairing pairing = pair_triangles(mesh, edge_bbsa, identity);
+            const Pairing pairing = pair_triangles(mesh, by_edge_bbsa, identity);
             expect_valid(mesh, pairing, identity);
             EXPECT_EQ(partners_of(pairing, mesh.triangles.size()), reference_edge_bbsa(mesh, identity));
             const Pairing windowed = pair_triangles(mesh, window(50), identity);
@@ -79,14 +79,14 @@ TEST(Pairing, WindowTakesTheFirstNeighbourAndNotTheLongestEdge) {
     const TriangleMesh mesh{
         "", {{0, 0, 0}, {1, 0, 0}, {0, 9, 9}, {1, 1, 0}, {5, 5, 5}}, {{0, 1, 2}, {1, 0, 3}, {2, 1, 4}}};
     EXPECT_EQ(partners_of(pair_triangles(mesh, window(3), EdgeIdentity::Index), 3), (Partners{1, 0, {}}));
-    EXPECT_EQ(partners_of(pair_triangles(mesh, edge_bbsa, EdgeIdentity::Index), 3), (Partners{2, {}, 0}));
+    EXPECT_EQ(partners_of(pair_triangles(mesh, by_edge_bbsa, EdgeIdentity::Index), 3), (Partners{2, {}, 0}));
 }
 
 TEST(Pairing, TiesGoToTheLowestVerticesThenTheLowestTriangles) {
     // Every edge has area 0: the greedy order is that of the vertices. Edge 0-1 has three half-edges.
     const TriangleMesh mesh{
         "", std::vector<Vec3>(6), {{3, 2, 4}, {0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {2, 3, 5}}};
-    EXPECT_EQ(partners_of(pair_triangles(mesh, edge_bbsa, EdgeIdentity::Index), 5),
+    EXPECT_EQ(partners_of(pair_triangles(mesh, by_edge_bbsa, EdgeIdentity::Index), 5),
               (Partners{4, 2, 1, {}, 0}));
 }
 
@@ -100,8 +100,8 @@ TEST(Pairing, ASideWithoutLengthIsNoEdge) {
 TEST(Pairing, JoinsSplitVerticesByPositionOnly) {
     const TriangleMesh mesh{
         "", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {4, 3, 5}}};
-    EXPECT_EQ(pair_triangles(mesh, edge_bbsa, EdgeIdentity::Index).pair_count, 0U);
-    const Pairing pairing = pair_triangles(mesh, edge_bbsa, EdgeIdentity::Position);
+    EXPECT_EQ(pair_triangles(mesh, by_edge_bbsa, EdgeIdentity::Index).pair_count, 0U);
+    const Pairing pairing = pair_triangles(mesh, by_edge_bbsa, EdgeIdentity::Position);
     ASSERT_EQ(pairing.pair_count, 1U);
     EXPECT_EQ(pairing.pairs[0].vertices, (std::array<std::uint32_t, 4>{2, 0, 1, 5}));
 }
@@ -111,7 +111,7 @@ TEST(Pairing, ManyTrianglesOnOneEdgeAreNotQuadratic) {
     TriangleMesh mesh;
     mesh.positions.resize(count + 2);
     for (std::uint32_t t = 0; t < count; ++t) mesh.triangles.push_back({0, 1, t + 2});
-    for (const PairingMethod method : {window(max_pairing_window), edge_bbsa}) {
+    for (const PairingMethod method : {window(max_pairing_window), by_edge_bbsa}) {
         EXPECT_EQ(pair_triangles(mesh, method, EdgeIdentity::Index).pair_count, count / 2);
     }
 }
@@ -124,7 +124,7 @@ TEST(Pairing, AStripWhoseEdgesGrowAllAlongIsNotQuadratic) {
         mesh.positions.push_back({(v % 2 == 0 ? 1.0F : -1.0F) * float(v), float(v), 0});
     }
     for (std::uint32_t t = 0; t < count; ++t) mesh.triangles.push_back({t, t + 1, t + 2});
-    const Partners partners = partners_of(pair_triangles(mesh, edge_bbsa, EdgeIdentity::Index), count);
+    const Partners partners = partners_of(pair_triangles(mesh, by_edge_bbsa, EdgeIdentity::Index), count);
     EXPECT_EQ(partners[0], std::nullopt);
     for (std::uint32_t t = 1; t < count; ++t) ASSERT_EQ(partners[t], t % 2 == 0 ? t - 1 : t + 1);
 }

@@ -8,6 +8,7 @@
 #include "exact_reference.hpp"
 #include "meshes.hpp"
 #include "model/exact_triangle.hpp"
+#include "model/vec3.hpp"
 
 // t, u and v of a hit against rational arithmetic, where binary64 can tell how they round and where it
 // cannot.
@@ -16,8 +17,6 @@ namespace {
 
 using test::Random;
 using test::Rational;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Meeting {
     Vec3 origin, direction;

@@ -8,6 +8,7 @@
 #include "model/quantised_node.hpp"
 #include "model/slab_test.hpp"
 #include "model/traversal.hpp"
+#include "model/vec3.hpp"
 #include "tests/scenes.hpp"
 
 namespace rtu::model {
@@ -16,7 +17,6 @@ namespace {
 using test::image_of;
 using test::Random;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float smallest = std::numeric_limits<float>::denorm_min();
 

@@ -7,14 +7,13 @@
 #include "exact_reference.hpp"
 #include "meshes.hpp"
 #include "model/rounded_quotient.hpp"
+#include "model/vec3.hpp"
 
 namespace rtu::model {
 namespace {
 
 using test::Random;
 using test::Rational;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 using Sum = ExactSum<8>;
 
@@ -56,13 +55,13 @@ TEST(RoundedQuotient, IsThatOfRationalArithmeticForAnyNumbers) {
 
 // The number half way between two floats of any size: next to zero, subnormal, normal, next to infinity.
 double any_middle(Random& random) {
-    const std::uint32_t largest = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::max());
+    const std::uint32_t most_bits = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::max());
     const std::uint32_t bits = random.below(8) == 0   ? random.below(4)
-                               : random.below(8) == 0 ? largest - random.below(2)
+                               : random.below(8) == 0 ? most_bits - random.below(2)
                                : random.below(4) == 0 ? random.below(1U << 23U)
-                                                      : random.below(largest);
+                                                      : random.below(most_bits);
     const double low = std::bit_cast<float>(bits);
-    const double high = bits == largest ? 0x1p128 : double(std::bit_cast<float>(bits + 1));
+    const double high = bits == most_bits ? 0x1p128 : double(std::bit_cast<float>(bits + 1));
     return (random.below(2) == 0 ? 0.5 : -0.5) * (low + high);
 }
 

@@ -7,14 +7,13 @@
 #include "model/pair_test.hpp"
 #include "model/slab_test.hpp"
 #include "model/traversal.hpp"
+#include "model/vec3.hpp"
 
 namespace rtu::model {
 namespace {
 
 using test::image_of;
 using test::Random;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 Ray ray_between(Vec3 from, Vec3 to, float t_max = infinity) { return {from, 0, to - from, t_max}; }
 

@@ -7,19 +7,15 @@
 
 #include "model/methods/kernel.hpp"
 #include "model/random.hpp"
+#include "model/vec3.hpp"
+#include "tests/model/random_points.hpp"
 
 // A method that decides as the exact test does: held against it on rays that rounding makes hard.
 
 namespace rtu::model::methods {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-Vec3 random_point(RandomStream& random) {
-    const float x = random.next(), y = random.next(), z = random.next();
-    return {x, y, z};
-}
 
 // Moves one coordinate by up to two units in the last place.
 Vec3 nudged(Vec3 p, RandomStream& random) {

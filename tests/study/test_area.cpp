@@ -190,7 +190,7 @@ TEST(AreaModel, LeavesEachGateTheTimeThatTheSourceOfTheClockSays) {
                       HasSubstr(fmt::format("the {:.0f} gates", depth))));
 }
 
-AreaOptions builtin_options() {
+AreaOptions builtin_area_options() {
     AreaOptions options;
     options.config = config_with({});
     for (const std::string& name : sim::preset_names()) {
@@ -203,7 +203,7 @@ AreaOptions builtin_options() {
 }
 
 TEST(AreaStudy, RunsEveryModeOnTheSameRays) {
-    const AreaReport report = run_area_study(builtin_options());
+    const AreaReport report = run_area_study(builtin_area_options());
     ASSERT_EQ(report.rows.size(), 6U);
     for (const AreaRow& row : report.rows) {
         const AreaRow& single = in_mode(report, row, PairMode::Single);
@@ -279,7 +279,7 @@ TEST(MailboxArea, IsWhatThePageSays) {
 }
 
 TEST(AreaReport, SaysTheSameAsTextJsonAndCsv) {
-    AreaOptions options = builtin_options();
+    AreaOptions options = builtin_area_options();
     options.scenes.clear();
     AreaReport report = run_area_study(options);
     EXPECT_TRUE(report.rows.empty());

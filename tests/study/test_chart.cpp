@@ -11,6 +11,7 @@
 #include "study/pairing/pairing_charts.hpp"
 #include "study/pairing/pairing_html.hpp"
 #include "tests/study/example_pairing.hpp"
+#include "tests/study/gnuplot.hpp"
 
 namespace rtu::study {
 namespace {
@@ -19,17 +20,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-bool has_gnuplot() {
-    try {
-        check_gnuplot();
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
-}
-
-constexpr const char* no_gnuplot = "no gnuplot here: install gnuplot-nox";
 
 Chart line_chart() {
     return {"lines", "A title", "size (KiB)", "change (%)",

@@ -3,6 +3,7 @@
 
 #include "model/error.hpp"
 #include "study/chart/any_chart.hpp"
+#include "tests/study/gnuplot.hpp"
 
 namespace rtu::study {
 namespace {
@@ -10,15 +11,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-bool has_gnuplot() {
-    try {
-        check_gnuplot();
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
-}
 
 ScatterChart example_scatter() {
     ScatterChart chart;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/parallel.hpp"
+#include "model/vec3.hpp"
 #include "study/check.hpp"
 #include "study/oracle/exact_oracle.hpp"
 #include "tests/model/meshes.hpp"
@@ -18,7 +19,7 @@ using model::RayKind;
 using test::Random;
 using test::Vec3;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using model::infinity;
 
 struct CheckedRun {
     model::TriangleMesh mesh = test::triangle_soup(400, 21, 0.2F);

@@ -7,6 +7,7 @@
 #include "study/chart/chart_study.hpp"
 #include "study/methods/method_charts.hpp"
 #include "study/methods/method_charts_rows.hpp"
+#include "tests/study/gnuplot.hpp"
 
 namespace rtu::study {
 namespace {
@@ -15,15 +16,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using Points = std::vector<std::pair<double, double>>;
-
-bool has_gnuplot() {
-    try {
-        check_gnuplot();
-        return true;
-    } catch (const Error&) {
-        return false;
-    }
-}
 
 StabilityRow stability_row(const char* method, std::size_t case_index, const char* parameter, const char* aim,
                            std::uint64_t leaks, const char* contraction = "off") {

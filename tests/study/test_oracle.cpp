@@ -4,6 +4,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
+#include "model/vec3.hpp"
 #include "study/oracle/oracle_rational.hpp"
 #include "study/oracle/oracle_triangle.hpp"
 #include "tests/model/meshes.hpp"
@@ -16,7 +17,7 @@ using model::Vec3;
 using model::methods::Corners;
 using test::Random;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using model::infinity;
 
 struct Probe {
     Ray ray;

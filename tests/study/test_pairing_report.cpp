@@ -149,7 +149,7 @@ TEST(PublishedPairing, IsMarkedWhereTheMeshIsAnotherEdition) {
     EXPECT_THAT(pairing_text(report), testing::Not(HasSubstr("Published")));
 }
 
-std::vector<std::string> keys(const Json& object) {
+std::vector<std::string> keys_of(const Json& object) {
     std::vector<std::string> names;
     for (const auto& [key, value] : object.items()) names.push_back(key);
     return names;
@@ -172,8 +172,8 @@ TEST(PairingJson, HasTheDocumentedKeys) {
     std::vector<std::string> row_keys{"scene", "method", "baseline"};
     row_keys.insert(row_keys.end(), columns.begin(), columns.end());
     row_keys.insert(row_keys.end(), {"old", "new", "published", "compression"});
-    EXPECT_EQ(keys(json["rows"][0]), row_keys);
-    EXPECT_THAT(keys(json["average"]), testing::IsSupersetOf(columns));
+    EXPECT_EQ(keys_of(json["rows"][0]), row_keys);
+    EXPECT_THAT(keys_of(json["average"]), testing::IsSupersetOf(columns));
     EXPECT_EQ(json["average"]["method"], "edge_bbsa");
     EXPECT_EQ(json["averages"].size(), 2U);
     EXPECT_EQ(json["rows"][0]["delta_mrps_percent"], 100.0);

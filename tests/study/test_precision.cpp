@@ -107,7 +107,7 @@ TEST(PrecisionReport, BoundsARateByWhatWasSeen) {
     EXPECT_EQ(upper_rate_per_million(0, 0), 1e6);
 }
 
-PrecisionReport example_report() {
+PrecisionReport example_precision() {
     PrecisionReport report;
     report.wrong_per_million = 1000;
     for (const int bits : {7, 8, 9, 23}) {
@@ -133,7 +133,7 @@ PrecisionReport example_report() {
 }
 
 TEST(PrecisionReport, TakesTheNarrowestFormatFromWhichAllWiderOnesAreEnough) {
-    const PrecisionReport report = example_report();
+    const PrecisionReport report = example_precision();
     const auto rungs = ladder(report, "hall", "wald", 8);
     ASSERT_EQ(rungs.size(), 4U);
     EXPECT_EQ(narrowest_enough(rungs), &report.rows[2]);
@@ -142,7 +142,7 @@ TEST(PrecisionReport, TakesTheNarrowestFormatFromWhichAllWiderOnesAreEnough) {
 }
 
 TEST(PrecisionReport, AnswersInWordsAndShowsTheEvidence) {
-    const PrecisionReport report = example_report();
+    const PrecisionReport report = example_precision();
     const std::string text = precision_text(report);
     for (const char* part : {"hall: wald in e8m9 (18 bits) is the cheapest", "15 of 100 rays (primary) wrong",
                              "39 % of the 23.0 in binary32", "With one bit less, 16 rays are wrong",
@@ -155,13 +155,14 @@ TEST(PrecisionReport, AnswersInWordsAndShowsTheEvidence) {
 }
 
 TEST(PrecisionReport, IsTheSameAsJson) {
-    const auto document = nlohmann::json::parse(precision_json(example_report()));
+    const auto document = nlohmann::json::parse(precision_json(example_precision()));
     EXPECT_EQ(document["answers"][0]["row"]["format"], "e8m9");
     EXPECT_TRUE(document["answers"][0]["watertight_row"].is_null());
     EXPECT_EQ(document["rows"].size(), 4U);
     EXPECT_EQ(document["rows"][0]["wrong_rays"], 17);
     EXPECT_TRUE(document["rows"][0]["t_ulp_p99"].is_null());
-    EXPECT_THAT(precision_csv(example_report()), testing::StartsWith("scene,method,format,exponent_bits,"));
+    EXPECT_THAT(precision_csv(example_precision()),
+                testing::StartsWith("scene,method,format,exponent_bits,"));
 }
 
 TEST(AreaProxy, GrowsWithTheSquareForProductsAndLinearlyForSums) {

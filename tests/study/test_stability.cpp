@@ -7,6 +7,7 @@
 #include <map>
 
 #include "model/error.hpp"
+#include "model/vec3.hpp"
 #include "study/stability/stability_aims.hpp"
 #include "study/stability/stability_metamorphic.hpp"
 #include "study/stability/stability_probes.hpp"
@@ -21,7 +22,7 @@ using model::Vec3;
 using model::methods::Corners;
 using model::methods::TestHit;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using model::infinity;
 
 // A method that is made up: the oracle's answer, changed.
 class Imagined : public Subject {

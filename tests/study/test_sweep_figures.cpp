@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double rays = 1000, mhz = 1000;
+constexpr double rays_a_run = 1000, mhz = 1000;
 
 // Sweeps whose points are given what they say.
 class SweepFigures : public testing::Test {
@@ -35,11 +35,11 @@ class SweepFigures : public testing::Test {
         SweepResult result;
         result.point = plan_.points.at(point).id;
         SweepRow row{"primary", level};
-        const double cycles = rays * mhz / mrps;
+        const double cycles = rays_a_run * mhz / mrps;
         row.cycles_low = cycles * (1 - half);
         row.cycles_high = cycles * (1 + half);
         row.counts.resize(sweep_counts().size());
-        row.counts[0] = std::uint64_t(rays);
+        row.counts[0] = std::uint64_t(rays_a_run);
         row.counts[6] = std::uint64_t(std::llround(cycles));
         if (level == "cycle")
             for (auto& count : row.counts) count = count.value_or(7);

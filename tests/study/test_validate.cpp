@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-sim::Config config_with(const std::vector<std::string>& sets) {
+sim::Config config_of(const std::vector<std::string>& sets) {
     return sim::load_config("default", std::nullopt, sets).config;
 }
 
@@ -39,9 +39,9 @@ ValidateOptions builtin_options(ReferenceMachine reference) {
     ValidateOptions options;
     options.scenes = {SceneSource{}};
     options.workloads = {model::WorkloadKind::Primary, model::WorkloadKind::Shadow};
-    options.configs = {{"base", {}, config_with({})},
-                       {"stack_2", {"rtu.stack_entries=2"}, config_with({"rtu.stack_entries=2"})},
-                       {"width_2", {"bvh.width=2"}, config_with({"bvh.width=2"})}};
+    options.configs = {{"base", {}, config_of({})},
+                       {"stack_2", {"rtu.stack_entries=2"}, config_of({"rtu.stack_entries=2"})},
+                       {"width_2", {"bvh.width=2"}, config_of({"bvh.width=2"})}};
     options.ray_count = 100;
     options.reference = std::move(reference);
     return options;
@@ -128,10 +128,10 @@ TEST(Validation, ChangesTheSimulatorAlone) {
 }
 
 TEST(Validation, GivesFewSlotsFewRays) {
-    EXPECT_EQ(rays_for(2000, config_with({"rtu.ray_slots=64"})), 2000U);
-    EXPECT_EQ(rays_for(2000, config_with({"rtu.ray_slots=4"})), 500U);
-    EXPECT_EQ(rays_for(100, config_with({"rtu.ray_slots=1"})), 32U);
-    EXPECT_EQ(rays_for(10, config_with({"rtu.ray_slots=1"})), 10U);
+    EXPECT_EQ(rays_for(2000, config_of({"rtu.ray_slots=64"})), 2000U);
+    EXPECT_EQ(rays_for(2000, config_of({"rtu.ray_slots=4"})), 500U);
+    EXPECT_EQ(rays_for(100, config_of({"rtu.ray_slots=1"})), 32U);
+    EXPECT_EQ(rays_for(10, config_of({"rtu.ray_slots=1"})), 10U);
 }
 
 ValidateReport example_report() {
