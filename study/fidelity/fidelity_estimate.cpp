@@ -13,9 +13,11 @@ namespace rtu::study {
 namespace {
 
 // The places of what the cycles of blocks and windows are taken to be linear in.
-enum Covariate : std::size_t { rays, boxes, pairs, hits, alone, least, covariate_count };
-using Vector = std::array<double, covariate_count>;
-using Matrix = std::array<Vector, covariate_count>;
+namespace covariate {
+enum : std::size_t { rays, boxes, pairs, hits, alone, least, count };
+}
+using Vector = std::array<double, covariate::count>;
+using Matrix = std::array<Vector, covariate::count>;
 
 // What keeps the units busy, and the busiest of them: ray by ray, and block by block.
 Vector covariates(const sim::Config& config, const RayWork& work, double least_cycles_alone,
@@ -35,45 +37,45 @@ Vector covariates(const sim::Config& config, const RayWork& work, double least_c
 // matter.
 Vector window_covariates(const sim::Config& config, const WindowSample& window) {
     Vector x = covariates(config, window.work, 0, window.traced.least_cycles);
-    x[pairs] = x[hits] = 0;
+    x[covariate::pairs] = x[covariate::hits] = 0;
     return x;
 }
 
 double dot(const Vector& a, const Vector& b) {
     double sum = 0;
-    for (std::size_t i = 0; i < covariate_count; ++i) sum += a[i] * b[i];
+    for (std::size_t i = 0; i < covariate::count; ++i) sum += a[i] * b[i];
     return sum;
 }
 
 // The inverse of a symmetric, positive semi-definite matrix; directions that it does not span count as 0.
 Matrix inverse(Matrix m) {
     Matrix result{};
-    std::array<bool, covariate_count> is_used{};
+    std::array<bool, covariate::count> is_used{};
     Vector scale{};
-    for (std::size_t i = 0; i < covariate_count; ++i) {
+    for (std::size_t i = 0; i < covariate::count; ++i) {
         result[i][i] = 1;
         scale[i] = m[i][i];
     }
-    for (std::size_t i = 0; i < covariate_count; ++i) {
+    for (std::size_t i = 0; i < covariate::count; ++i) {
         // A covariate that the ones before it explain but for rounding says nothing new.
         if (!(m[i][i] > 1e-9 * scale[i])) continue;
         is_used[i] = true;
         const double pivot = m[i][i];
-        for (std::size_t j = 0; j < covariate_count; ++j) {
+        for (std::size_t j = 0; j < covariate::count; ++j) {
             m[i][j] /= pivot;
             result[i][j] /= pivot;
         }
-        for (std::size_t k = 0; k < covariate_count; ++k) {
+        for (std::size_t k = 0; k < covariate::count; ++k) {
             const double factor = m[k][i];
             if (k == i || factor == 0) continue;
-            for (std::size_t j = 0; j < covariate_count; ++j) {
+            for (std::size_t j = 0; j < covariate::count; ++j) {
                 m[k][j] -= factor * m[i][j];
                 result[k][j] -= factor * result[i][j];
             }
         }
     }
-    for (std::size_t i = 0; i < covariate_count; ++i)
-        for (std::size_t j = 0; j < covariate_count; ++j)
+    for (std::size_t i = 0; i < covariate::count; ++i)
+        for (std::size_t j = 0; j < covariate::count; ++j)
             if (!is_used[i] || !is_used[j]) result[i][j] = 0;
     return result;
 }
@@ -100,14 +102,14 @@ Fit fit(const std::vector<Observation>& observations) {
     Fit fit;
     const auto n = double(observations.size());
     for (const auto& [y, x] : observations) {
-        for (std::size_t i = 0; i < covariate_count; ++i) {
+        for (std::size_t i = 0; i < covariate::count; ++i) {
             xy[i] += x[i] * y;
             fit.mean_x[i] += x[i] / n;
-            for (std::size_t j = 0; j < covariate_count; ++j) xx[i][j] += x[i] * x[j];
+            for (std::size_t j = 0; j < covariate::count; ++j) xx[i][j] += x[i] * x[j];
         }
     }
     fit.inverse = inverse(xx);
-    for (std::size_t i = 0; i < covariate_count; ++i) {
+    for (std::size_t i = 0; i < covariate::count; ++i) {
         fit.beta[i] = dot(fit.inverse[i], xy);
         if (fit.inverse[i][i] > 0) ++fit.rank;
     }
@@ -161,7 +163,7 @@ Scatter scatter_of_windows(const Fit& fit, const Vector& apart) {
     double squares = 0;
     for (std::size_t i = 0; i < fit.residuals.size(); ++i) {
         Vector solved{};
-        for (std::size_t k = 0; k < covariate_count; ++k) solved[k] = dot(fit.inverse[k], fit.x[i]);
+        for (std::size_t k = 0; k < covariate::count; ++k) solved[k] = dot(fit.inverse[k], fit.x[i]);
         const double weight = 1 / n + dot(apart, solved);
         const double left = std::max(1e-6, 1 - dot(fit.x[i], solved));  // of the window's own error
         errors.push_back(weight * fit.residuals[i] / std::sqrt(left));
@@ -210,12 +212,12 @@ class Population {
         for (const WindowMeasurement& pass : passes) {
             for (const RayWork& work : pass.lattice) {
                 Vector& x = lattice_.emplace_back(covariates(config, work, least_cycles(config, work), 0));
-                x[least] = dot(blocks_.beta, x);
+                x[covariate::least] = dot(blocks_.beta, x);
             }
         }
         for (const Vector& x : lattice_)
-            for (std::size_t i = 0; i < covariate_count; ++i) mean_[i] += x[i] / double(lattice_.size());
-        mean_[least] += blocks_.mean_residual / block_length_;
+            for (std::size_t i = 0; i < covariate::count; ++i) mean_[i] += x[i] / double(lattice_.size());
+        mean_[covariate::least] += blocks_.mean_residual / block_length_;
     }
 
     [[nodiscard]] const Vector& mean() const { return mean_; }  // of a position
@@ -225,8 +227,8 @@ class Population {
     [[nodiscard]] double variance_of_cost(const Vector& beta, double cycles_per_ray) const {
         std::vector<double> values;
         values.reserve(lattice_.size());
-        for (const Vector& x : lattice_) values.push_back(dot(beta, x) - cycles_per_ray * x[rays]);
-        const double of_block = beta[least] / block_length_;
+        for (const Vector& x : lattice_) values.push_back(dot(beta, x) - cycles_per_ray * x[covariate::rays]);
+        const double of_block = beta[covariate::least] / block_length_;
         return variance_of_mean(values) + of_block * of_block * variance_of_mean(blocks_.residuals);
     }
 
@@ -259,13 +261,13 @@ CycleEstimate estimate_cycles(const sim::Config& config, std::span<const WindowM
     const auto windows = double(begun.middle_length) / length;  // in the middle
     Vector wanted{};                                            // of a window, in the mean
     Vector apart{};
-    for (std::size_t i = 0; i < covariate_count; ++i) {
+    for (std::size_t i = 0; i < covariate::count; ++i) {
         wanted[i] = population.mean()[i] * length;
         apart[i] = wanted[i] - fitted.mean_x[i];
     }
     const double middle_cycles = windows * (dot(fitted.beta, wanted) + fitted.mean_residual);
     CycleEstimate estimate;
-    estimate.rays = begun.first.work.rays + windows * wanted[rays] + begun.last.work.rays;
+    estimate.rays = begun.first.work.rays + windows * wanted[covariate::rays] + begun.last.work.rays;
     const double cycles = begun.first.cycles + middle_cycles + begun.last.cycles;
     if (estimate.rays <= 0) return estimate;
     estimate.cycles_per_ray = cycles / estimate.rays;

@@ -95,7 +95,7 @@ class SyntheticRun {
     WindowMeasurement measure() {
         WindowMeasurement run;
         run.window_length = length;
-        run.middle_length = windows * length;
+        run.middle_length = std::uint64_t(windows) * length;
         run.block_length = length / blocks;
         run.first = run.last = {0, {}};
         for (int k = 0; k < 20; ++k)
