@@ -17,7 +17,8 @@ double density(const RayPopulation& population) {
     const std::uint32_t count = std::min(population.size(), wanted);
     std::vector<std::uint32_t> positions(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        positions[i] = std::uint32_t((std::uint64_t(2) * i + 1) * population.size() / (2 * count));
+        positions[i] =
+            std::uint32_t((std::uint64_t(2) * i + 1) * population.size() / (std::uint64_t(2) * count));
     }
     return double(population.part(positions).rays.size()) / count;
 }
