@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "model/error.hpp"
 #include "model/pair_test.hpp"
 #include "model/quantised_node.hpp"
 #include "model/slab_test.hpp"
+#include "model/traversal_log.hpp"
 
 namespace rtu::model {
 
@@ -87,14 +89,16 @@ PairVisit update_closest(Closest& closest, const LeafPair& pair, const RaySetup&
 
 // The whole traversal of one ray, with the tree's nodes known to the compiler and the ray's constants in
 // registers. The nearest child is visited next without passing through the stack. `is_passed` is asked of
-// every leaf whether the ray goes on without it.
-template <class AnyNode, class IsPassed>
+// every leaf whether the ray goes on without it; `on_visit` and `on_pair` are told what is visited and
+// tested.
+template <class AnyNode, class IsPassed, class OnVisit, class OnPair>
 Closest run(const MemoryImage& image, const RaySetup& ray, RayKind kind, TraversalStack& stack,
-            TraversalCounts& counts, IsPassed is_passed) {
+            TraversalCounts& counts, IsPassed is_passed, OnVisit on_visit, OnPair on_pair) {
     const SlabRay<slab_lanes<AnyNode::width>> slab_ray(ray);
     Closest closest{Hit{.t = ray.t_max}};
     StackEntry current{image.root(), ray.t_min};
     while (true) {
+        on_visit(current.ref);
         if (current.ref.is_leaf() && is_passed(current.ref)) {
             ++counts.mailbox_hits;
         } else if (current.ref.is_leaf()) {
@@ -102,6 +106,7 @@ Closest run(const MemoryImage& image, const RaySetup& ray, RayKind kind, Travers
                 const PairVisit visit = update_closest(closest, image.leaf_pair(current.ref, i), ray);
                 counts.triangle_tests += visit.triangle_tests;
                 ++counts.pair_tests;
+                on_pair(visit);
                 if (kind == RayKind::AnyHit && closest.is_found) return closest;
             }
         } else {
@@ -130,8 +135,9 @@ std::optional<Hit> trace_past(TraversalStack& stack, const MemoryImage& image, c
     TraversalCounts mine;
     const RaySetup setup = make_ray_setup(ray, image.bounds);
     const Closest closest = with_node(image, [&]<class AnyNode>() {
-        return run<AnyNode>(image, setup, kind, stack, mine,
-                            [&](NodeRef leaf) { return is_passed(leaf, mine); });
+        return run<AnyNode>(
+            image, setup, kind, stack, mine, [&](NodeRef leaf) { return is_passed(leaf, mine); },
+            [](NodeRef) {}, [](const PairVisit&) {});
     });
     if (counts != nullptr) *counts += mine;
     return closest.is_found ? std::optional(closest.hit) : std::nullopt;
@@ -210,6 +216,33 @@ std::optional<Hit> trace(TraversalStack& stack, Mailbox& mailbox, const MemoryIm
 std::optional<Hit> trace(const MemoryImage& image, const Ray& ray, RayKind kind, TraversalCounts* counts) {
     TraversalStack stack;
     return trace(stack, image, ray, kind, counts);
+}
+
+void trace(TraversalStack& stack, const MemoryImage& image, const Ray& ray, RayKind kind, TraversalLog& log) {
+    log.visits.clear();
+    log = {.visits = std::move(log.visits), .pairs = {}};
+    if (!can_hit(ray)) return;
+    stack.reset(stack_capacity(image));
+    const RaySetup setup = make_ray_setup(ray, image.bounds);
+    const auto on_pair = [&log](const PairVisit& visit) {
+        log.survivor_pairs += visit.exact_tests > 0 ? 1 : 0;
+        log.pairs.triangle_tests += visit.triangle_tests;
+        log.pairs.exact_tests += visit.exact_tests;
+        log.pairs.better_hits += visit.better_hits;
+        log.pairs.side_tests += visit.side_tests;
+    };
+    const auto on_visit = [&log](NodeRef ref) {
+        log.visits.push_back(ref);
+        log.leaf_visits += ref.is_leaf() ? 1 : 0;
+    };
+    TraversalCounts counts;
+    with_node(image, [&]<class AnyNode>() {
+        return run<AnyNode>(
+            image, setup, kind, stack, counts, [](NodeRef) { return false; }, on_visit, on_pair);
+    });
+    log.node_visits = std::uint32_t(counts.node_visits);
+    log.box_tests = std::uint32_t(counts.box_tests);
+    log.pair_tests = std::uint32_t(counts.pair_tests);
 }
 
 }  // namespace rtu::model

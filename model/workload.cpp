@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "model/camera_frame.hpp"
 #include "model/error.hpp"
 #include "model/parallel.hpp"
 #include "model/sampling.hpp"
@@ -34,11 +35,6 @@ Vec3 place_light(const MemoryImage& image, const Camera& camera) {
     return camera.eye + direction * (0.5F * (hit ? hit->t : limit));
 }
 
-Ray pixel_ray(const WorkloadSetting& setting, std::uint32_t pixel) {
-    return camera_ray(setting.camera, setting.resolution, pixel % setting.resolution.width,
-                      pixel / setting.resolution.width);
-}
-
 std::optional<Ray> random_ray(const WorkloadSetting& setting, std::uint32_t pixel) {
     RandomStream random(setting.seed, std::uint32_t(WorkloadKind::Random), pixel);
     const Vec3 from = sample_box(random, setting.image.bounds);
@@ -62,10 +58,10 @@ std::optional<Ray> secondary_ray(const WorkloadSetting& setting, WorkloadKind ki
     return ray;
 }
 
-std::optional<Ray> make_ray(const WorkloadSetting& setting, WorkloadKind kind, std::uint32_t pixel,
-                            TraversalStack& scratch) {
+std::optional<Ray> make_ray(const WorkloadSetting& setting, const CameraFrame& frame, WorkloadKind kind,
+                            std::uint32_t pixel, TraversalStack& scratch) {
     if (kind == WorkloadKind::Random) return random_ray(setting, pixel);
-    const Ray primary = pixel_ray(setting, pixel);
+    const Ray primary = frame.ray(pixel % setting.resolution.width, pixel / setting.resolution.width);
     if (kind == WorkloadKind::Primary) return primary;
     const std::optional<Hit> hit = trace(scratch, setting.image, primary, RayKind::ClosestHit);
     if (!hit) return std::nullopt;
@@ -79,10 +75,11 @@ template <class PixelAt>
 Workload make_workload_of(WorkloadKind kind, const WorkloadSetting& setting, std::uint32_t pixel_count,
                           PixelAt pixel_at) {
     std::vector<std::optional<Ray>> rays(pixel_count);
+    const CameraFrame frame(setting.camera, setting.resolution);
     for_each_range<std::uint32_t>(pixel_count, 256, [&](const auto& range) {
         TraversalStack scratch;
         for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
-            rays[i] = make_ray(setting, kind, pixel_at(i), scratch);
+            rays[i] = make_ray(setting, frame, kind, pixel_at(i), scratch);
         }
     });
     Workload workload{std::string(to_string(kind)), ray_kind(kind), {}, {}};

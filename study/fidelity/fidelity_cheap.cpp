@@ -23,7 +23,7 @@ double analytic_allowance(const AnalyticResult& result) {
 }
 
 // Of the rays: a first pass of more is not worth its risk, that every ray follows.
-constexpr double most_of_auto = 1.0 / 12;
+constexpr double most_of_auto = 1.0 / 9;
 
 // What first touches cost at most, of the cycles of a run: every line of the image fetched alone, all else
 // waiting.

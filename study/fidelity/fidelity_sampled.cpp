@@ -6,6 +6,7 @@
 
 #include "study/cpu_time.hpp"
 #include "study/fidelity/fidelity_levels.hpp"
+#include "study/fidelity/fidelity_windows.hpp"
 
 namespace rtu::study {
 namespace {
@@ -16,7 +17,8 @@ double density(const RayPopulation& population) {
     const std::uint32_t count = std::min(population.size(), wanted);
     std::vector<std::uint32_t> positions(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        positions[i] = std::uint32_t((std::uint64_t(2) * i + 1) * population.size() / (2 * count));
+        positions[i] =
+            std::uint32_t((std::uint64_t(2) * i + 1) * population.size() / (std::uint64_t(2) * count));
     }
     return double(population.part(positions).rays.size()) / count;
 }
@@ -29,19 +31,20 @@ WindowPlan first_plan(const sim::Config& config, const RayPopulation& population
     const double positions_per_ray = 1 / std::max(density(population), 1.0 / 16);
     const auto positions = [&](double rays) { return std::uint32_t(std::lround(rays * positions_per_ray)); };
     WindowPlan plan;
-    plan.block_length = std::max(16U, in_flight / 4);
+    plan.block_length = std::max(16U, in_flight / 8);
     const std::uint32_t length = positions(std::clamp(population.size() / 1024, settled, 2 * settled));
     plan.window_length = (length + plan.block_length - 1) / plan.block_length * plan.block_length;
     plan.settling_rays = settled;
     plan.warm_length = population.row_length() + positions(settled);
     plan.lattice_stride = std::clamp(population.size() / 32768, 8U, 64U);
-    plan.block_stride = plan.lattice_stride * plan.block_length;
+    plan.block_stride = 2 * plan.lattice_stride * plan.block_length;
     plan.seed = seed;
     return plan;
 }
 
 // Of the estimate, for what the samples do not tell: lines that skipped rays would have left in the caches,
-// and long rays under way that settling did not bring. Measured, see docs/fidelity.md.
+// and long rays under way that settling did not bring. Measured, see docs/fidelity.md. It is as likely to one
+// side as to the other and has nothing to do with the windows' scatter, so the two add as their squares do.
 constexpr double bias_allowance = 0.005;
 
 class Sampling {
@@ -68,9 +71,7 @@ class Sampling {
             take_pass();
             plan_next_pass();
         }
-        const double allowance = bias_allowance * result_.estimate.cycles_per_ray;
-        result_.estimate.low -= allowance;
-        result_.estimate.high += allowance + dram_allowance() * result_.estimate.cycles_per_ray;
+        result_.estimate = widened(result_.estimate, bias_allowance, dram_allowance());
         result_.level = "sampled";
         result_.account =
             fmt::format("{} windows of {} positions in {} {}, every {}th ray traced between them",
@@ -83,7 +84,8 @@ class Sampling {
   private:
     [[nodiscard]] double dram_allowance() const { return options_.dram_allowance.value_or(0); }
     [[nodiscard]] double wanted_half_width() const {
-        return options_.tolerance - bias_allowance - dram_allowance();
+        const double all = options_.tolerance - dram_allowance();
+        return std::sqrt(std::max(0.0, all * all - bias_allowance * bias_allowance));
     }
     [[nodiscard]] bool is_precise() const {
         return !passes_.empty() && result_.estimate.relative_half_width() <= wanted_half_width();
@@ -103,15 +105,15 @@ class Sampling {
         result_.estimate = estimate_cycles(config_, passes_);
     }
 
-    // Each share is cut into two, or as often in two as it takes, and each part without a window gets one:
-    // all together are one sample. The interval shrinks with the root of the number of windows, and more
-    // where neighbours are alike.
+    // New, smaller shares, of which those without a window get one: all together are one sample. The interval
+    // shrinks with the root of the number of windows, and more where neighbours are alike.
     void plan_next_pass() {
         for (const WindowSample& window : passes_.back().windows) plan_.taken.push_back(window.begin);
         const double ratio = result_.estimate.relative_half_width() / std::max(wanted_half_width(), 1e-6);
-        const double wanted = 0.35 * plan_.stratum_count * ratio * ratio;
-        do plan_.stratum_count *= 2;
-        while (plan_.stratum_count < wanted && plan_.stratum_count < population_.size());
+        const double growth = std::clamp(1.1 * ratio * ratio, 1.5, 16.0);
+        plan_.stratum_count =
+            std::min(population_.size(), std::uint32_t(growth * double(plan_.taken.size())));
+        plan_.has_ends_and_blocks = false;
         ++plan_.seed;
     }
 

@@ -45,6 +45,7 @@ class StretchSupply final : public sim::RaySupply {
     StretchSupply(const RayPopulation& population, const WindowPlan& plan)
         : population_(population), plan_(plan) {
         begins_ = window_begins(population.size(), plan);
+        if (!plan.has_ends_and_blocks) return;
         begins_.insert(begins_.begin(), 0);
         begins_.push_back(population.size() - plan.window_length);
     }
@@ -125,8 +126,10 @@ class Measuring {
           supply_(population, plan),
           session_(config, image, supply_, population.kind()),
           lattice_(spread(population.size(), plan, plan.lattice_stride, 1, lattice_purpose)),
-          blocks_(spread(population.size(), plan, plan.block_stride, plan.block_length, block_purpose)),
+          has_ends_(plan.has_ends_and_blocks),
           has_image_in_l2_(plan.has_image_in_l2) {
+        if (has_ends_)
+            blocks_ = spread(population.size(), plan, plan.block_stride, plan.block_length, block_purpose);
         if (!has_image_in_l2_) return;
         for (std::uint64_t address = 0; address < image.size_bytes(); address += model::image_block_bytes) {
             session_.warm(0, address, model::image_block_bytes);
@@ -137,12 +140,13 @@ class Measuring {
         result_.window_length = length_;
         result_.block_length = block_length_;
         result_.middle_length = population_.size() - 2 * std::uint64_t(length_);
-        const std::size_t last = supply_.stretch_count() - 1;
-        for (std::size_t i = 0; i <= last; ++i) {
+        const std::size_t count = supply_.stretch_count();
+        for (std::size_t i = 0; i < count; ++i) {
             const Stretch& stretch = supply_.stretch(i);
-            const WindowSample sample = measure(stretch, i == last);
-            if (i == 0 || i == last) {
-                (i == 0 ? result_.first : result_.last) = sample;
+            const bool is_first = has_ends_ && i == 0, is_last = has_ends_ && i + 1 == count;
+            const WindowSample sample = measure(stretch, is_last);
+            if (is_first || is_last) {
+                (is_first ? result_.first : result_.last) = sample;
                 continue;
             }
             result_.windows.push_back(sample);
@@ -195,7 +199,11 @@ class Measuring {
             const std::uint32_t end =
                 begin + ((part.positions[i] - begin) / block_length_ + 1) * block_length_;
             RayWork block;
-            for (; i < part.rays.size() && part.positions[i] < end; ++i) block += trace(part.rays[i], warms);
+            for (; i < part.rays.size() && part.positions[i] < end; ++i) {
+                const RayWork work = trace(part.rays[i], warms);
+                all.least_cycles_alone += least_cycles(config_, work);
+                block += work;
+            }
             all.work += block;
             all.least_cycles += least_cycles(config_, block);
         }
@@ -205,11 +213,13 @@ class Measuring {
     // Without a clock; its memory accesses go into the caches when it `warms` them.
     RayWork trace(const model::Ray& ray, bool warms) {
         const std::uint32_t rtu = std::uint32_t(result_.traced_rays++ % config_.rtu.count);
-        if (!walk_.start(image_, ray, population_.kind())) return walk_.work();
-        do
-            if (warms) session_.warm(rtu, walk_.address(), walk_.size_bytes(image_));
-        while (walk_.step(image_));
-        return walk_.work();
+        model::trace(stack_, image_, ray, population_.kind(), log_);
+        if (warms) {
+            for (const model::NodeRef ref : log_.visits) {
+                session_.warm(rtu, ref.address(), fetched_bytes(image_, ref));
+            }
+        }
+        return work_of(log_);
     }
 
     const sim::Config& config_;
@@ -219,17 +229,18 @@ class Measuring {
     StretchSupply supply_;
     sim::MachineSession session_;
     std::vector<std::uint32_t> lattice_, blocks_;
-    bool has_image_in_l2_;
+    bool has_ends_, has_image_in_l2_;
     std::size_t traced_ = 0;  // of the lattice
     std::uint64_t handed_ = 0;
-    FunctionalWalk walk_;
+    model::TraversalStack stack_;
+    model::TraversalLog log_;
     WindowMeasurement result_;
 };
 
 }  // namespace
 
 std::uint64_t simulated_length(const WindowPlan& plan) {
-    const std::uint64_t windows = plan.stratum_count - plan.taken.size() + 2;
+    const std::uint64_t windows = plan.stratum_count - plan.taken.size() + (plan.has_ends_and_blocks ? 2 : 0);
     return windows * (plan.window_length + plan.settling_rays);
 }
 

@@ -17,8 +17,10 @@ namespace rtu::study {
 
 /// Where to measure. All lengths are positions of the population, unless they say rays.
 struct WindowPlan {
-    std::uint32_t stratum_count = 16;    ///< equal shares of the workload, with a window each
+    std::uint32_t stratum_count = 24;    ///< equal shares of the workload, with a window each
     std::vector<std::uint32_t> taken{};  ///< where windows lie already: their strata get no other
+    /// Whether the first and the last window and the blocks are measured too: once is enough for them.
+    bool has_ends_and_blocks = true;
     std::uint32_t window_length = 512;
     std::uint32_t settling_rays = 256;  ///< simulated before each window, not measured
     std::uint32_t warm_length = 2048;   ///< before each window, all traced to warm the caches
@@ -34,7 +36,8 @@ struct WindowPlan {
 /// Rays traced without a clock.
 struct TracedWork {
     RayWork work;
-    double least_cycles = 0;  ///< of the blocks that they make, one after another: see least_cycles()
+    double least_cycles = 0;        ///< of the blocks that they make, one after another: see least_cycles()
+    double least_cycles_alone = 0;  ///< the same were every ray a block
 };
 
 /// Cycles and work of a stretch of a run.
@@ -48,10 +51,10 @@ struct WindowSample {
 /// What was measured. The population is the first window (from cold caches), the last one (until its last ray
 /// has returned) and `middle_length` positions between them.
 struct WindowMeasurement {
-    WindowSample first, last;
+    WindowSample first, last;           ///< see WindowPlan::has_ends_and_blocks
     std::vector<WindowSample> windows;  ///< of the middle
     std::vector<RayWork> lattice;       ///< of one position each, spread over the middle
-    std::vector<TracedWork> blocks;     ///< of `block_length` each, likewise
+    std::vector<TracedWork> blocks;     ///< of `block_length` each, likewise; see there too
     std::uint32_t window_length = 0;
     std::uint32_t block_length = 0;
     std::uint64_t middle_length = 0;
@@ -59,7 +62,8 @@ struct WindowMeasurement {
     std::uint64_t traced_rays = 0;  ///< without a clock
 };
 
-/// Positions that a plan looks at with the clock.
+/// Positions that a plan looks at with the clock; some more where two windows of earlier plans share a
+/// stratum.
 [[nodiscard]] std::uint64_t simulated_length(const WindowPlan& plan);
 
 /// Measures. The windows, with the rays before them, must fit into the population: see simulated_length().

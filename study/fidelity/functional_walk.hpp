@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "model/traversal.hpp"
+#include "model/traversal_log.hpp"
 
 namespace rtu::study {
 
@@ -40,6 +41,25 @@ struct RayWork {
     }
 };
 
+/// What a logged ray took.
+[[nodiscard]] inline RayWork work_of(const model::TraversalLog& log) {
+    return {1,
+            double(log.node_visits),
+            double(log.box_tests),
+            double(log.leaf_visits),
+            double(log.pair_tests),
+            double(log.pairs.triangle_tests),
+            double(log.survivor_pairs),
+            double(log.pairs.exact_tests),
+            double(log.pairs.better_hits),
+            double(log.pairs.side_tests)};
+}
+
+/// Bytes that a visit of the node or leaf reads.
+[[nodiscard]] inline std::uint32_t fetched_bytes(const model::MemoryImage& image, model::NodeRef ref) {
+    return ref.is_leaf() ? ref.pair_count() * model::image_block_bytes : std::uint32_t(image.node_bytes());
+}
+
 /// One ray's way through the tree step by step, without a clock: its memory accesses in order, and its work.
 class FunctionalWalk {
   public:
@@ -50,9 +70,7 @@ class FunctionalWalk {
     }
     [[nodiscard]] std::uint64_t address() const { return traversal_.current.ref.address(); }
     [[nodiscard]] std::uint32_t size_bytes(const model::MemoryImage& image) const {
-        const model::NodeRef ref = traversal_.current.ref;
-        return ref.is_leaf() ? ref.pair_count() * model::image_block_bytes
-                             : std::uint32_t(image.node_bytes());
+        return fetched_bytes(image, traversal_.current.ref);
     }
     /// Visits the node or leaf that the ray is at; false: that was the last one.
     [[nodiscard]] bool step(const model::MemoryImage& image) {

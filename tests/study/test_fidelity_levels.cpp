@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "model/builtin_scene.hpp"
@@ -90,7 +91,13 @@ TEST_F(BuiltinFidelity, LevelsHoldWhatEveryRayFinds) {
     };
 
     const LevelResult sampled = run_sampled(config, image(), *rays, {0.03, 1});
-    EXPECT_TRUE(holds(sampled)) << sampled.estimate.low << " to " << sampled.estimate.high;
+    int inside = 0;
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+        const LevelResult result = run_sampled(config, image(), *rays, {0.03, seed});
+        EXPECT_NEAR(result.estimate.cycles_per_ray, truth, 0.03 * truth) << "seed " << seed;
+        inside += holds(result) ? 1 : 0;
+    }
+    EXPECT_GE(inside, 5) << "of 6: one in twenty may miss";
     EXPECT_LE(sampled.estimate.relative_half_width(), 0.03);
     EXPECT_LT(3 * sampled.simulated_rays, cycle.simulated_rays);
     EXPECT_EQ(sampled.level, "sampled");
@@ -197,12 +204,28 @@ TEST_F(Windows, NewOnesTakeTheSharesThatHaveNone) {
     EXPECT_EQ(shares.size(), 32U);
 }
 
+TEST_F(Windows, LaterOnesLeaveOutEndsAndBlocks) {
+    const WindowMeasurement whole = measure_windows({}, ball_.image, *rays_, plan_);
+    EXPECT_EQ(whole.first.work.rays, 128);
+    EXPECT_EQ(whole.last.work.rays, 128);
+    EXPECT_FALSE(whole.blocks.empty());
+    plan_.has_ends_and_blocks = false;
+    EXPECT_EQ(simulated_length(plan_), 8U * (128 + 64));
+    const WindowMeasurement later = measure_windows({}, ball_.image, *rays_, plan_);
+    ASSERT_EQ(later.windows.size(), 8U);
+    EXPECT_EQ(later.simulated_rays, 8U * (128 + 64));
+    EXPECT_TRUE(later.blocks.empty());
+    EXPECT_EQ(later.lattice.size(), whole.lattice.size());
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(later.windows[i].begin, whole.windows[i].begin);
+}
+
 TEST_F(Windows, TraceTheRaysThatTheyHandOver) {
     const WindowMeasurement run = measure_windows({}, ball_.image, *rays_, plan_);
     for (const WindowSample& window : run.windows) {
         EXPECT_EQ(window.traced.work.rays, window.work.rays);
         EXPECT_NEAR(window.traced.work.node_visits, window.work.node_visits, 0.5 * window.work.node_visits);
         EXPECT_GE(window.traced.least_cycles, least_cycles({}, window.traced.work) - 1e-9);
+        EXPECT_GE(window.traced.least_cycles_alone, window.traced.least_cycles - 1e-9);
     }
     EXPECT_EQ(run.blocks.size(), 18U) << "17.5 strides";
     for (const TracedWork& block : run.blocks) EXPECT_EQ(block.work.rays, 32);
@@ -222,6 +245,39 @@ TEST_F(Windows, WithTheImageInTheL2DramIsNotAsked) {
     EXPECT_GT(cycles(slow), cycles({}));
     plan_.has_image_in_l2 = true;
     EXPECT_EQ(cycles(slow), cycles({}));
+}
+
+// The log of a whole traversal is what the walk does step by step.
+TEST(TraversalLog, IsTheWalkStepByStep) {
+    const Ball ball;
+    for (const model::RayKind kind : {model::RayKind::ClosestHit, model::RayKind::AnyHit}) {
+        FunctionalWalk walk;
+        model::TraversalStack stack;
+        model::TraversalLog log;
+        double pairs = 0;
+        for (const model::Ray& ray : ball.rays) {
+            model::trace(stack, ball.image, ray, kind, log);
+            ASSERT_TRUE(walk.start(ball.image, ray, kind));
+            std::size_t visited = 0;
+            do {
+                ASSERT_LT(visited, log.visits.size());
+                EXPECT_EQ(log.visits[visited].address(), walk.address());
+                EXPECT_EQ(fetched_bytes(ball.image, log.visits[visited++]), walk.size_bytes(ball.image));
+            } while (walk.step(ball.image));
+            EXPECT_EQ(visited, log.visits.size());
+            const RayWork a = work_of(log), b = walk.work();
+            EXPECT_EQ((std::array{a.rays, a.node_visits, a.box_tests, a.leaf_visits, a.pair_tests}),
+                      (std::array{b.rays, b.node_visits, b.box_tests, b.leaf_visits, b.pair_tests}));
+            EXPECT_EQ(
+                (std::array{a.triangle_tests, a.survivor_pairs, a.survivors, a.better_hits, a.side_tests}),
+                (std::array{b.triangle_tests, b.survivor_pairs, b.survivors, b.better_hits, b.side_tests}));
+            pairs += a.survivor_pairs;
+        }
+        EXPECT_GT(pairs, 0);
+        model::trace(stack, ball.image, {{0, 0, 0}, 0, {0, 0, 0}, 1}, kind, log);
+        EXPECT_TRUE(log.visits.empty());
+        EXPECT_EQ(work_of(log).pair_tests, 0);
+    }
 }
 
 TEST(StoredPopulation, FewRaysAreAllSimulated) {
